@@ -1,0 +1,37 @@
+# The two commands a newcomer needs are `make demo` and `make test`; the rest is for development.
+PRESET ?= release
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+
+.PHONY: build demo test test-release test-sanitized packages format format-check clean
+
+build: packages
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET) -j $(JOBS) --target gramap_command
+
+demo: build
+	examples/demo
+
+test: packages test-release test-sanitized
+
+test-release:
+	cmake --preset release
+	cmake --build --preset release -j $(JOBS)
+	ctest --preset release
+
+# The same unit tests under the address and undefined-behaviour sanitizers.
+test-sanitized:
+	cmake --preset asan-ubsan
+	cmake --build --preset asan-ubsan -j $(JOBS)
+	ctest --preset asan-ubsan
+
+packages:
+	scripts/install-packages
+
+format:
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+format-check:
+	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+
+clean:
+	rm -rf build

@@ -1,0 +1,46 @@
+// The `gramap` command: a table of verbs, one place that catches, exit codes.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <vector>
+
+#include "app/verbs.h"
+#include "geometry/error.h"
+#include "version.h"
+
+int main(int argc, char** argv) {
+  using namespace gramap;
+  CLI::App app{"Noisy room scans and an interior grammar in, a complete, gap-free 3D floor out.", "gramap"};
+  app.set_version_flag("--version", "gramap " GRAMAP_VERSION);
+  app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::simple);
+
+  int code = kDone;
+  const std::vector<Verb (*)(CLI::App&)> verbs = {declare_check};
+  for (const auto declare : verbs) {
+    const Verb verb = declare(app);
+    app.get_subcommands([](const CLI::App*) { return true; }).back()->callback([&code, verb] {
+      code = verb();
+    });
+  }
+
+  try {
+    app.parse(argc, argv);
+    return code;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  } catch (const InputError& error) {
+    const std::string place = to_string(error.place);
+    std::fprintf(stderr, "gramap: %s%s%s\n", place.c_str(), place.empty() ? "" : ": ", error.what());
+    if (!error.advice.empty()) std::fprintf(stderr, "  help: %s\n", error.advice.c_str());
+    return kInputFault;
+  } catch (const std::exception& error) {
+    std::fprintf(
+        stderr,
+        "gramap: internal error: %s\n  This is a defect of gramap; please report it with the command line.\n",
+        error.what());
+    return kDefect;
+  }
+}

@@ -1,0 +1,26 @@
+// The verbs of the command. Each is declared and carried out in the file of its name: `gramap fit` in
+// fit.cpp.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace gramap {
+
+/// What `main` returns to the shell; README documents them.
+enum ExitCode {
+  kDone = 0,        ///< complete and verified
+  kInputFault = 1,  ///< said where and why; nothing written
+  kUsage = 2,
+  kDefect = 3,    ///< a defect of gramap
+  kSetAside = 4,  ///< written, but some input had to be set aside
+};
+
+/// Adds a verb to the command; the returned function runs it once the options are parsed.
+using Verb = std::function<int()>;
+Verb declare_check(CLI::App& gramap);
+
+}  // namespace gramap

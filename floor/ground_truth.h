@@ -1,0 +1,94 @@
+// What a user knows of a floor beforehand: `floor.geojson`. Plan coordinates are local metres.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/types.h"
+
+namespace gramap {
+
+struct Hallway {
+  std::string id;
+  std::string name;
+  Polygon outline;
+};
+
+/// A known room that no rule splits: stairs, lifts.
+struct FixedRoom {
+  std::string id;
+  std::string type;
+  std::string name;
+  Polygon outline;
+};
+
+/// The clear area beside a hallway that rules split. Its reference line runs from `start` to `end` with the
+/// space on its left.
+struct Space {
+  std::string id;
+  std::string hallway;
+  Polygon outline;
+  Vec2 start = Vec2::Zero();
+  Vec2 end = Vec2::Zero();
+};
+
+/// "This room was scanned about here."
+struct Pin {
+  std::string room;
+  Vec2 at = Vec2::Zero();
+  double sigma_m = 0;
+};
+
+/// Rooms, openings and furniture as they really are; for learning and evaluation, never for a fit.
+struct TrueRoom {
+  std::string id;
+  std::string type;
+  std::string name;
+  Polygon outline;
+  double floor_m = 0;
+  double ceiling_m = 0;
+};
+struct TrueOpening {
+  std::string kind;  ///< "door" or "window"
+  std::string room;
+  Vec2 a = Vec2::Zero();
+  Vec2 b = Vec2::Zero();
+  double width_m = 0;
+  double sill_m = 0;
+  double head_m = 0;
+};
+struct TrueFurniture {
+  std::string room;
+  std::string type;
+  Polygon outline;
+  double bottom_m = 0;
+  double top_m = 0;
+};
+struct FloorTruth {
+  std::vector<TrueRoom> rooms;
+  std::vector<TrueOpening> openings;
+  std::vector<TrueFurniture> furniture;
+};
+
+struct FloorGroundTruth {
+  std::string name;
+  double elevation_m = 0;
+  std::optional<double> ceiling_height_m;
+  std::optional<double> inner_wall_m;
+  std::optional<double> outer_wall_m;
+  Polygon outline;  ///< outer face of the outer walls; empty when the file has none
+  std::vector<Hallway> hallways;
+  std::vector<FixedRoom> fixed;
+  std::vector<Space> spaces;
+  std::vector<Pin> pins;
+};
+
+/// Reads a floor file, or `floor.geojson` in a floor folder; the truth kinds are skipped. Throws InputError.
+FloorGroundTruth read_floor(const std::filesystem::path& path);
+
+/// Reads the truth kinds of a file, or of `truth.geojson` in a floor folder.
+FloorTruth read_truth(const std::filesystem::path& path);
+
+}  // namespace gramap

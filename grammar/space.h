@@ -1,0 +1,103 @@
+// One space as plain numbers: what was observed along its reference line, and the layout that explains it
+// best. All positions are metres along the reference line from its start; the space's clear length is from
+// wall face to wall face.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grammar/rules.h"
+
+namespace gramap {
+
+/// A room that somebody scanned.
+struct RoomEvidence {
+  std::string id;      ///< the scanned room's name
+  double width_m = 0;  ///< clear width along the reference line
+  double width_sigma_m = 0;
+  std::optional<double>
+      other_width_m;  ///< set when it is not known which dimension lies along the line: the other one
+  double other_sigma_m = 0;
+  std::optional<double>
+      centre_m;  ///< position of the room's centre along the line; none: only the order is known
+  double centre_sigma_m = 0;
+  std::string type;  ///< type evidence: a room type's name, or empty
+  double type_confidence = 0;
+};
+
+/// A door seen in the hallway's wall, from the hallway.
+struct DoorEvidence {
+  double centre_m = 0;
+  double sigma_m = 0;
+  double width_m = 0;
+};
+
+/// A stretch of the hallway's wall on which every door would have been seen.
+struct Stretch {
+  double start_m = 0;
+  double end_m = 0;
+};
+
+/// One space to be filled.
+struct SpaceProblem {
+  std::string id;
+  double length_m = 0;
+  double depth_m = 0;
+  std::string hallway;
+  bool facade = true;
+  std::vector<RoomEvidence>
+      rooms;  ///< in any order when positions are known, else in the order along the line
+  std::vector<DoorEvidence> doors;
+  std::vector<Stretch> doors_visible;
+};
+
+/// One room of a layout.
+struct PlacedRoom {
+  std::string type;  ///< the room type's name; "Unknown" for the background room
+  double start_m = 0;
+  double width_m = 0;
+  double width_sigma_m = 0;
+  double start_sigma_m = 0;  ///< standard deviation of the wall before the room
+  double end_sigma_m = 0;    ///< and behind it
+  double type_probability = 1;
+  std::string rule;                    ///< the rule that placed it
+  std::vector<std::string> rule_path;  ///< from the start symbol's rule down to `rule`
+  std::vector<int> evidence;           ///< indices into SpaceProblem::rooms
+  bool swapped = false;                ///< the evidence's other dimension lies along the line
+  /// Position across the space, for units with nested splits: 0 at the hallway wall; depth < 0: the whole
+  /// depth.
+  double depth_start_m = 0;
+  double depth_m = -1;
+};
+
+struct Layout {
+  std::vector<PlacedRoom>
+      rooms;               ///< from start to end; widths and the walls between them sum to the length exactly
+  double score = 0;        ///< ln of the joint probability of layout and evidence, on a 1 cm grid
+  double probability = 0;  ///< of this sequence of types among all, given the evidence
+};
+
+/// What became of a piece of evidence that no room explains.
+struct SetAside {
+  int evidence = 0;
+  std::string reason;
+};
+
+struct SpaceFit {
+  Layout best;
+  std::vector<Layout> alternatives;  ///< the next best distinct sequences, best first
+  std::vector<SetAside> set_aside;
+};
+
+struct FitOptions {
+  double grid_m = 0.01;         ///< step of the dynamic programme's positions
+  double outlier_share = 0.02;  ///< ε: prior share of evidence that no room explains
+  int alternatives = 0;         ///< how many distinct alternatives to report
+};
+
+/// The most probable layout of the space. Throws InputError when no derivation fills the space, naming the
+/// space, its length and the nearest length that can be filled.
+SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options = {});
+
+}  // namespace gramap

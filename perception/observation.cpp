@@ -1,0 +1,1 @@
+#include "perception/observation.h"
