@@ -1,0 +1,208 @@
+#include "floor/fit_floor.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <exception>
+#include <set>
+
+#include "geometry/error.h"
+#include "geometry/polygon.h"
+
+namespace gramap {
+namespace {
+
+/// The part of a ring on the side of a line where (p - at)·normal >= 0 (Sutherland–Hodgman).
+Polygon clipped(const Polygon& ring, const Vec2& at, const Vec2& normal) {
+  Polygon kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    const double da = (a - at).dot(normal), db = (b - at).dot(normal);
+    if (da >= 0) kept.push_back(a);
+    if ((da > 0 && db < 0) || (da < 0 && db > 0)) kept.push_back(a + (b - a) * (da / (da - db)));
+  }
+  return kept;
+}
+
+double storey_height(const FloorGroundTruth& floor, const RuleSet& rules,
+                     const std::vector<RoomObservation>& observations) {
+  if (floor.ceiling_height_m) return *floor.ceiling_height_m;
+  std::vector<double> heights;
+  for (const RoomObservation& room : observations)
+    if (room.height.value_m > 0) heights.push_back(room.height.value_m);
+  if (heights.empty()) return rules.height_m;
+  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2),
+                   heights.end());
+  return heights[heights.size() / 2];
+}
+
+FittedRoom given_room(const std::string& id, const std::string& name, const std::string& type,
+                      const Polygon& outline, double height) {
+  FittedRoom room;
+  room.id = id;
+  room.name = name.empty() ? id : name;
+  room.type = type;
+  room.origin = Origin::given;
+  room.outline = outline;
+  const OrientedBox box = oriented_box(outline);
+  room.width_m = box.length_m;
+  room.depth_m = box.breadth_m;
+  room.height_m = height;
+  return room;
+}
+
+/// Names that are taken, so that every room gets one of its own.
+std::string unique_id(std::string wanted, std::set<std::string>& taken) {
+  std::string id = wanted;
+  for (int suffix = 2; !taken.insert(id).second; ++suffix) id = wanted + "_" + std::to_string(suffix);
+  return id;
+}
+
+void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& problem, const SpaceFit& fit,
+               std::set<std::string>& taken) {
+  FittedSpace summary;
+  summary.id = space.id;
+  summary.length_m = problem.length_m;
+  summary.score = fit.best.score;
+  summary.probability = fit.best.probability;
+  for (const Layout& layout : fit.alternatives) {
+    FittedSpace::Alternative alternative{layout.score, layout.probability, {}, {}};
+    for (const PlacedRoom& room : layout.rooms) {
+      alternative.types.push_back(room.type);
+      alternative.widths_m.push_back(room.width_m);
+    }
+    summary.alternatives.push_back(alternative);
+  }
+  fitted.spaces.push_back(summary);
+
+  int number = 0;
+  for (const PlacedRoom& placed : fit.best.rooms) {
+    ++number;
+    FittedRoom room;
+    room.space = space.id;
+    room.type = placed.type;
+    room.start_m = placed.start_m;
+    room.width_m = placed.width_m;
+    room.width_sigma_m = placed.width_sigma_m;
+    room.start_sigma_m = placed.start_sigma_m;
+    room.end_sigma_m = placed.end_sigma_m;
+    room.type_probability = placed.type_probability;
+    room.rule = placed.rule;
+    room.height_m = fitted.height_m;
+    // The last cut is the space's own end, the very same number.
+    const bool last = &placed == &fit.best.rooms.back();
+    room.outline = slab(space, placed.start_m, last ? problem.length_m : placed.start_m + placed.width_m);
+    const Vec2 along = (space.end - space.start).normalized(), left(-along.y(), along.x());
+    for (const Vec2& point : room.outline)
+      room.depth_m = std::max(room.depth_m, (point - space.start).dot(left));
+    for (const int index : placed.evidence) {
+      const RoomEvidence& evidence = problem.rooms[static_cast<std::size_t>(index)];
+      room.origin = Origin::observed;
+      room.scans.push_back(evidence.id);
+      if (room.extracted_width_m) continue;
+      room.extracted_width_m =
+          placed.swapped && evidence.other_width_m ? *evidence.other_width_m : evidence.width_m;
+      room.extracted_sigma_m =
+          placed.swapped && evidence.other_width_m ? evidence.other_sigma_m : evidence.width_sigma_m;
+    }
+    room.id =
+        unique_id(room.scans.empty() ? space.id + "_" + std::to_string(number) : room.scans.front(), taken);
+    room.name = room.id;
+    fitted.rooms.push_back(room);
+  }
+  for (const SetAside& aside : fit.set_aside)
+    fitted.set_aside.push_back({problem.rooms[static_cast<std::size_t>(aside.evidence)].id, aside.reason});
+}
+
+/// What of the floor is known before any space is fitted.
+FittedFloor given_floor(const FloorGroundTruth& floor, const RuleSet& rules, double height_m) {
+  FittedFloor fitted;
+  fitted.floor = floor;
+  fitted.inner_wall_m = floor.inner_wall_m.value_or(rules.inner_wall_m);
+  fitted.outer_wall_m = floor.outer_wall_m.value_or(rules.outer_wall_m);
+  fitted.height_m = height_m;
+  for (const Hallway& hallway : floor.hallways)
+    fitted.hallways.push_back(given_room(hallway.id, hallway.name, "Hallway", hallway.outline, height_m));
+  for (const FixedRoom& fixed : floor.fixed)
+    fitted.fixed.push_back(given_room(fixed.id, fixed.name, fixed.type, fixed.outline, height_m));
+  return fitted;
+}
+
+void fit_spaces(FittedFloor& fitted, const RuleSet& rules_of_file, const std::vector<SpaceProblem>& problems,
+                const FitOptions& options) {
+  RuleSet rules = rules_of_file;
+  rules.inner_wall_m = fitted.inner_wall_m;
+  std::vector<SpaceFit> fits(problems.size());
+  std::vector<std::exception_ptr> faults(problems.size());
+  tbb::parallel_for(std::size_t{0}, problems.size(), [&](std::size_t i) {
+    try {
+      fits[i] = fit_space(rules, problems[i], options);
+    } catch (...) {
+      faults[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& fault : faults)
+    if (fault) std::rethrow_exception(fault);  // the first space in file order, whichever thread was first
+
+  std::set<std::string> taken;
+  for (const FittedRoom& room : fitted.hallways) taken.insert(room.id);
+  for (const FittedRoom& room : fitted.fixed) taken.insert(room.id);
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    add_space(fitted, fitted.floor.spaces[i], problems[i], fits[i], taken);
+}
+
+}  // namespace
+
+Polygon slab(const Space& space, double start_m, double end_m) {
+  const Vec2 along = (space.end - space.start).normalized();
+  const double length = clear_length_m(space);
+  Polygon piece = space.outline;
+  // At the space's own ends nothing is cut, so that its border is kept to the last digit.
+  if (start_m > 0) piece = clipped(piece, space.start + along * start_m, along);
+  if (end_m < length) piece = clipped(piece, space.start + along * end_m, -along);
+  return piece;
+}
+
+FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
+                      const std::vector<SpaceProblem>& problems, const FitOptions& options) {
+  FittedFloor fitted = given_floor(floor, rules, floor.ceiling_height_m.value_or(rules.height_m));
+  fit_spaces(fitted, rules, problems, options);
+  return fitted;
+}
+
+FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
+                      const std::vector<RoomObservation>& observations, const FloorFitOptions& options) {
+  const Placement placement = place_observations(floor, observations, options.placement);
+
+  std::vector<SpaceProblem> problems;
+  for (const Space& space : floor.spaces) {
+    SpaceProblem problem;
+    problem.id = space.id;
+    problem.length_m = clear_length_m(space);
+    problem.depth_m = clear_depth_m(space);
+    problem.hallway = space.hallway;
+    problems.push_back(problem);
+  }
+  for (const PlacedObservation& placed : placement.placed)
+    if (placed.on == PlacedObservation::On::space)
+      problems[static_cast<std::size_t>(placed.index)].rooms.push_back(placed.evidence);
+
+  FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
+  fit_spaces(fitted, rules, problems, options.space);
+  fitted.set_aside.insert(fitted.set_aside.begin(), placement.set_aside.begin(), placement.set_aside.end());
+
+  for (const PlacedObservation& placed : placement.placed) {
+    const RoomObservation& observation = observations[static_cast<std::size_t>(placed.observation)];
+    if (placed.on == PlacedObservation::On::space) continue;
+    FittedRoom& room = placed.on == PlacedObservation::On::hallway
+                           ? fitted.hallways[static_cast<std::size_t>(placed.index)]
+                           : fitted.fixed[static_cast<std::size_t>(placed.index)];
+    room.scans.push_back(observation.room);
+    const OrientedBox seen = oriented_box(observation.outline);
+    room.extracted_width_m = seen.length_m;
+    room.extracted_sigma_m = std::max(observation.width.sigma_m, observation.depth.sigma_m);
+  }
+  return fitted;
+}
+
+}  // namespace gramap

@@ -1,0 +1,32 @@
+// The fit of a whole floor: observations are placed on spaces, every space is fitted by itself, and the rooms
+// get their places in the plan.
+#pragma once
+
+#include <vector>
+
+#include "floor/fitted_floor.h"
+#include "floor/place.h"
+#include "grammar/rules.h"
+#include "grammar/space.h"
+#include "perception/observation.h"
+
+namespace gramap {
+
+struct FloorFitOptions {
+  PlacementOptions placement;
+  FitOptions space;
+};
+
+/// The most probable complete floor. What of the input had to be set aside is said in the result. Throws
+/// InputError when a space has no derivation at all.
+FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
+                      const std::vector<RoomObservation>& observations, const FloorFitOptions& options = {});
+
+/// The same from evidence that is on its spaces already: one problem per space of the floor, in its order.
+FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
+                      const std::vector<SpaceProblem>& problems, const FitOptions& options = {});
+
+/// The piece of a space between two positions along its reference line, as a clear outline.
+Polygon slab(const Space& space, double start_m, double end_m);
+
+}  // namespace gramap
