@@ -6,6 +6,7 @@
 #include <exception>
 #include <set>
 
+#include "floor/fuse.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
 
@@ -186,10 +187,12 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
   for (const PlacedObservation& placed : placement.placed)
     if (placed.on == PlacedObservation::On::space)
       problems[static_cast<std::size_t>(placed.index)].rooms.push_back(placed.evidence);
+  std::vector<SetAsideInput> set_aside = placement.set_aside;
+  for (SpaceProblem& problem : problems) problem.rooms = fused(problem.rooms, set_aside);
 
   FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
   fit_spaces(fitted, rules, problems, options.space);
-  fitted.set_aside.insert(fitted.set_aside.begin(), placement.set_aside.begin(), placement.set_aside.end());
+  fitted.set_aside.insert(fitted.set_aside.begin(), set_aside.begin(), set_aside.end());
 
   for (const PlacedObservation& placed : placement.placed) {
     const RoomObservation& observation = observations[static_cast<std::size_t>(placed.observation)];
