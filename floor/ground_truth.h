@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "floor/projection.h"
 #include "geometry/types.h"
 
 namespace gramap {
@@ -83,12 +84,22 @@ struct FloorGroundTruth {
   std::vector<FixedRoom> fixed;
   std::vector<Space> spaces;
   std::vector<Pin> pins;
+  std::optional<GeoOrigin> origin;   ///< where plan (0, 0) is, when the file was WGS84 or says so
+  std::vector<std::string> remarks;  ///< what the reader put right, for people: one sentence each
 };
 
-/// Reads a floor file, or `floor.geojson` in a floor folder; the truth kinds are skipped. Throws InputError.
+/// Reads a floor file, or `floor.geojson` in a floor folder; the truth kinds are skipped. Rings are made
+/// counter-clockwise, reference lines turned so that their space is on the left (with a remark), missing
+/// reference lines and missing hallways of spaces found. Throws InputError.
 FloorGroundTruth read_floor(const std::filesystem::path& path);
 
-/// Reads the truth kinds of a file, or of `truth.geojson` in a floor folder.
-FloorTruth read_truth(const std::filesystem::path& path);
+/// Reads the truth kinds of a file, or of `truth.geojson` in a floor folder. A WGS84 file is projected about
+/// `about` so that it lies on its floor; in a folder that is the origin of its `floor.geojson`.
+FloorTruth read_truth(const std::filesystem::path& path,
+                      const std::optional<GeoOrigin>& about = std::nullopt);
+
+/// The floor and what is truly there as GeoJSON in local metres, rounded to a micrometre, one feature a line;
+/// either may be empty. What this writes, `read_floor` and `read_truth` read.
+std::string to_geojson(const FloorGroundTruth& floor, const FloorTruth& truth);
 
 }  // namespace gramap

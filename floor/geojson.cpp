@@ -1,0 +1,296 @@
+#include "floor/geojson.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "floor/ring_check.h"
+#include "geometry/error.h"
+#include "geometry/file.h"
+#include "geometry/polygon.h"
+
+namespace gramap {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void fail_file(const std::string& path, const std::string& message, const std::string& advice) {
+  throw InputError({path}, message, advice);
+}
+
+json parse(const std::string& text, const std::string& path) {
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    const std::size_t byte = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
+    const std::size_t start = byte == 0 ? std::string::npos : text.rfind('\n', byte - 1);
+    const std::size_t column = start == std::string::npos ? byte + 1 : byte - start;
+    throw InputError({path, static_cast<int>(line) + 1, static_cast<int>(column)},
+                     byte >= text.size() ? "the JSON ends too early" : "this is not valid JSON here",
+                     "a floor file is a GeoJSON FeatureCollection; check it with any JSON viewer");
+  }
+}
+
+void flatten(const json& object, const std::string& prefix, GeoProperties& into, int depth = 0) {
+  for (const auto& [key, value] : object.items()) {
+    const std::string name = prefix + key;
+    if (value.is_string()) into[name] = value.get<std::string>();
+    if (value.is_number()) into[name] = value.get<double>();
+    if (value.is_boolean()) into[name] = value.get<bool>();
+    if (value.is_object() && depth < 3) flatten(value, name + ".", into, depth + 1);
+  }
+}
+
+Vec2 read_position(const json& value, const GeoFile& file, const GeoFeature& feature) {
+  if (!value.is_array() || value.size() < 2 || !value[0].is_number() || !value[1].is_number())
+    fail(file, feature, "a position is not a pair of numbers", "write each position as [x, y]");
+  const Vec2 position(value[0].get<double>(), value[1].get<double>());
+  if (!position.allFinite())
+    fail(file, feature, "a coordinate is not a finite number",
+         "write each position as [x, y] in plain numbers");
+  return position;
+}
+
+Polygon read_positions(const json& value, const GeoFile& file, const GeoFeature& feature) {
+  if (!value.is_array()) fail(file, feature, "its coordinates are not a list of positions", "");
+  Polygon points;
+  for (const json& position : value) points.push_back(read_position(position, file, feature));
+  return points;
+}
+
+std::vector<Polygon> read_rings(const json& value, const GeoFile& file, const GeoFeature& feature) {
+  if (!value.is_array() || value.empty())
+    fail(file, feature, "its coordinates are not a list of rings",
+         "a Polygon's coordinates are [[[x, y], …]]");
+  std::vector<Polygon> rings;
+  for (const json& ring : value) rings.push_back(read_positions(ring, file, feature));
+  return rings;
+}
+
+void read_geometry(const json& value, const GeoFile& file, GeoFeature& feature) {
+  if (value.is_null()) return;
+  if (!value.is_object() || !value.contains("type") || !value["type"].is_string())
+    fail(file, feature, "its geometry has no type", "see RFC 7946, section 3.1");
+  feature.geometry = value["type"].get<std::string>();
+  if (feature.geometry == "GeometryCollection") return;
+  if (!value.contains("coordinates") || !value["coordinates"].is_array())
+    fail(file, feature, "its geometry has no coordinates", "see RFC 7946, section 3.1");
+  const json& coordinates = value["coordinates"];
+  const bool many = feature.geometry.starts_with("Multi");
+  const std::string type = many ? feature.geometry.substr(5) : feature.geometry;
+  const json one = json::array({coordinates});
+  for (const json& part : many ? coordinates : one) {
+    if (type == "Polygon")
+      feature.parts.push_back(read_rings(part, file, feature));
+    else if (type == "LineString")
+      feature.parts.push_back({read_positions(part, file, feature)});
+    else if (type == "Point")
+      feature.parts.push_back({{read_position(part, file, feature)}});
+    else
+      fail(file, feature, "its geometry type '" + feature.geometry + "' is unknown",
+           "use Polygon, LineString or Point");
+  }
+}
+
+struct Extent {
+  Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
+  bool empty() const { return least.x() > most.x(); }
+};
+
+Extent extent_of(const GeoFile& file) {
+  Extent extent;
+  for (const GeoFeature& feature : file.features)
+    for (const auto& part : feature.parts)
+      for (const Polygon& ring : part)
+        for (const Vec2& point : ring)
+          extent.least = extent.least.cwiseMin(point), extent.most = extent.most.cwiseMax(point);
+  return extent;
+}
+
+void check_metres(const GeoFile& file, const Extent& extent) {
+  if (extent.empty()) return;
+  const Vec2 size = extent.most - extent.least;
+  const bool in_range = extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs()).x() <= 180 &&
+                        extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs()).y() <= 90;
+  // A single pin has no size and may stand anywhere.
+  if (in_range && size.maxCoeff() > 0 && size.maxCoeff() < 0.5)
+    fail_file(file.path,
+              "the file says metres, but all of it lies within half a metre: these look like degrees",
+              "leave \"coordinate_units\" out when the coordinates are WGS84 longitude and latitude");
+  if (size.maxCoeff() > 20000)
+    fail_file(file.path, "the floor is more than 20 km wide: these do not look like metres",
+              "give coordinates in metres, or WGS84 without \"coordinate_units\"");
+}
+
+void check_degrees(const GeoFile& file, const Extent& extent) {
+  if (extent.empty()) return;
+  const Vec2 far = extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs());
+  if (far.x() > 180 || far.y() > 90 || (extent.most - extent.least).maxCoeff() > 0.2)
+    fail_file(
+        file.path,
+        "these do not look like longitude and latitude, which a file without \"coordinate_units\" holds",
+        "add \"coordinate_units\": \"m\" to the collection when the coordinates are metres");
+}
+
+void project(GeoFile& file, const json& root, const std::optional<GeoOrigin>& about) {
+  const std::string units = text_of(file.members, "coordinate_units");
+  if (root.contains("origin")) {
+    const json& origin = root["origin"];
+    if (!origin.is_array() || origin.size() != 2 || !origin[0].is_number() || !origin[1].is_number() ||
+        std::abs(origin[0].get<double>()) > 180 || std::abs(origin[1].get<double>()) > 89)
+      fail_file(file.path, "\"origin\" is not [longitude, latitude] in degrees",
+                "write \"origin\": [13.7, 51.0]");
+    file.origin = GeoOrigin{origin[0].get<double>(), origin[1].get<double>()};
+  }
+  const Extent extent = extent_of(file);
+  if (units == "m") {
+    check_metres(file, extent);
+    return;
+  }
+  if (!units.empty())
+    fail_file(file.path, "the coordinate_units '" + units + "' are not known",
+              "use \"m\" for metres, or leave it out for WGS84 longitude and latitude");
+  check_degrees(file, extent);
+  if (extent.empty()) return;
+  const Vec2 centre = (extent.least + extent.most) / 2;
+  if (about) file.origin = about;
+  if (!file.origin) file.origin = GeoOrigin{centre.x(), centre.y()};
+  for (GeoFeature& feature : file.features)
+    for (auto& part : feature.parts)
+      for (Polygon& ring : part)
+        for (Vec2& point : ring) point = plan_from_wgs84(*file.origin, point.x(), point.y());
+}
+
+/// The number that a property holds, as a number or as text; nothing when it holds something else.
+std::optional<double> as_number(const std::variant<std::string, double, bool>& value) {
+  if (const double* number = std::get_if<double>(&value)) return *number;
+  const std::string* text = std::get_if<std::string>(&value);
+  if (!text) return std::nullopt;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
+  if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(number))
+    return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about) {
+  GeoFile file;
+  file.path = path.string();
+  const json root = parse(read_file(path), file.path);
+  if (!root.is_object() || root.value("type", json()) != "FeatureCollection" || !root.contains("features") ||
+      !root["features"].is_array())
+    fail_file(file.path, "this is not a GeoJSON FeatureCollection",
+              "the file's outermost object needs \"type\": \"FeatureCollection\" and \"features\": [ … ]");
+  json members = root;
+  members.erase("features");
+  flatten(members, "", file.members);
+  for (const json& value : root["features"]) {
+    GeoFeature feature;
+    feature.index = static_cast<int>(file.features.size());
+    if (!value.is_object()) fail(file, feature, "it is not an object", "see RFC 7946, section 3.2");
+    // IMDF keeps type and id beside the properties.
+    for (const char* key : {"id", "feature_type"})
+      if (value.contains(key)) flatten(json{{key, value[key]}}, "", feature.properties);
+    if (value.contains("properties") && value["properties"].is_object())
+      flatten(value["properties"], "", feature.properties);
+    if (value.contains("geometry")) read_geometry(value["geometry"], file, feature);
+    file.features.push_back(std::move(feature));
+  }
+  project(file, root, about);
+  return file;
+}
+
+std::string text_of(const GeoProperties& properties, const std::string& key) {
+  const auto found = properties.find(key);
+  if (found == properties.end()) return "";
+  if (const std::string* text = std::get_if<std::string>(&found->second)) return *text;
+  if (const bool* truth = std::get_if<bool>(&found->second)) return *truth ? "yes" : "no";
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, std::get<double>(found->second)).ptr;
+  return std::string(buffer, end);
+}
+
+std::optional<double> number_of(const GeoFile& file, const GeoFeature& feature, const std::string& key) {
+  const auto found = feature.properties.find(key);
+  if (found == feature.properties.end()) return std::nullopt;
+  const std::optional<double> number = as_number(found->second);
+  if (!number) fail(file, feature, "its '" + key + "' is not a number", "write a plain number, in metres");
+  return number;
+}
+
+std::optional<double> member_number(const GeoFile& file, const std::string& key) {
+  const auto found = file.members.find(key);
+  if (found == file.members.end()) return std::nullopt;
+  const std::optional<double> number = as_number(found->second);
+  if (!number)
+    fail_file(file.path, "the collection's '" + key + "' is not a number", "write a plain number, in metres");
+  return number;
+}
+
+std::string describe(const GeoFeature& feature) {
+  std::string text = "feature " + std::to_string(feature.index + 1);
+  std::string kind = text_of(feature.properties, "kind");
+  std::string id = text_of(feature.properties, "id");
+  if (id.empty()) id = text_of(feature.properties, "ref");
+  if (id.empty()) id = text_of(feature.properties, "room");
+  if (kind.empty() && id.empty()) return text;
+  return text + " (" + kind + (kind.empty() || id.empty() ? "" : " ") + (id.empty() ? "" : "'" + id + "'") +
+         ")";
+}
+
+void fail(const GeoFile& file, const GeoFeature& feature, const std::string& message,
+          const std::string& advice) {
+  throw InputError({file.path}, describe(feature) + ": " + message, advice);
+}
+
+Polygon ring_of(const GeoFile& file, const GeoFeature& feature, bool holes_allowed) {
+  if (feature.geometry != "Polygon" && feature.geometry != "MultiPolygon")
+    fail(file, feature,
+         "it needs a Polygon, not a " + (feature.geometry.empty() ? "null geometry" : feature.geometry),
+         "draw it as one closed area");
+  if (feature.parts.size() != 1)
+    fail(file, feature, "its MultiPolygon has " + std::to_string(feature.parts.size()) + " parts",
+         "draw each part as a feature of its own");
+  if (feature.parts[0].size() != 1 && !holes_allowed)
+    fail(file, feature, "its polygon has a hole",
+         "cut it into pieces without holes, each a feature of its own");
+  Polygon ring = without_repeats(feature.parts[0][0]);
+  if (ring.size() < 3 || std::abs(signed_area(ring)) < 1e-6)
+    fail(file, feature, "its polygon encloses no area",
+         "give at least three corners that are not on one line");
+  if (const auto fault = ring_fault(ring))
+    fail(file, feature, *fault, "draw the outline so that its edges meet only at their common corners");
+  if (signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+std::pair<Vec2, Vec2> segment_of(const GeoFile& file, const GeoFeature& feature) {
+  if (feature.geometry != "LineString" && feature.geometry != "MultiLineString")
+    fail(file, feature,
+         "it needs a LineString, not a " + (feature.geometry.empty() ? "null geometry" : feature.geometry),
+         "draw it as one straight line");
+  if (feature.parts.size() != 1 || feature.parts[0][0].size() < 2)
+    fail(file, feature, "its line is not one line of two points", "draw it as one straight line");
+  const Polygon& line = feature.parts[0][0];
+  if ((line.front() - line.back()).norm() < 1e-6)
+    fail(file, feature, "its line has no length", "give two different end points");
+  for (const Vec2& point : line)
+    if (distance_to_segment(point, line.front(), line.back()) > 0.05)
+      fail(file, feature, "its line is bent",
+           "draw it as one straight line, or as one feature for each piece");
+  return {line.front(), line.back()};
+}
+
+Vec2 point_of(const GeoFile& file, const GeoFeature& feature) {
+  if (feature.geometry != "Point")
+    fail(file, feature,
+         "it needs a Point, not a " + (feature.geometry.empty() ? "null geometry" : feature.geometry),
+         "mark the place with a point");
+  return feature.parts[0][0][0];
+}
+
+}  // namespace gramap
