@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <set>
 
 #include "floor/fuse.h"
@@ -152,6 +153,52 @@ void fit_spaces(FittedFloor& fitted, const RuleSet& rules_of_file, const std::ve
     add_space(fitted, fitted.floor.spaces[i], problems[i], fits[i], taken);
 }
 
+/// ln of the joint probability of all spaces that the hallway shows doors of; minus infinity when one can't
+/// be filled.
+double score_of(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
+                const std::vector<SpaceProblem>& without, const FitOptions& options) {
+  double score = 0;
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    if (problems[i].doors_visible.size() == without[i].doors_visible.size()) continue;
+    try {
+      score += fit_space(rules, problems[i], options).best.score;
+    } catch (const InputError&) {
+      return -std::numeric_limits<double>::infinity();
+    }
+  }
+  return score;
+}
+
+/// Doors from every scanned hallway and fixed room. One in a frame of its own may fit its given outline two
+/// ways round: the way is taken that the rules and the rooms beside it make more probable.
+void add_doors(const FloorGroundTruth& floor, const RuleSet& rules,
+               const std::vector<RoomObservation>& observations, const Placement& placement,
+               std::vector<SpaceProblem>& problems, const FloorFitOptions& options) {
+  FitOptions quick = options.space;
+  quick.alternatives = 0;
+  for (const PlacedObservation& placed : placement.placed) {
+    if (placed.on == PlacedObservation::On::space) continue;
+    const RoomObservation& hallway = observations[static_cast<std::size_t>(placed.observation)];
+    const auto index = static_cast<std::size_t>(placed.index);
+    const Polygon& given = placed.on == PlacedObservation::On::hallway ? floor.hallways[index].outline
+                                                                       : floor.fixed[index].outline;
+    std::vector<std::vector<SpaceProblem>> ways;
+    for (const PlanMotion& motion :
+         hallway_motions(hallway, given, !lies_on(hallway.outline, given, options.placement))) {
+      ways.push_back(problems);
+      add_door_evidence(floor, hallway, motion, ways.back(), options.doors);
+    }
+    if (ways.empty()) continue;
+    std::size_t best = 0;
+    double best_score = -std::numeric_limits<double>::infinity();
+    for (std::size_t way = 0; ways.size() > 1 && way < ways.size(); ++way) {
+      const double score = score_of(rules, ways[way], problems, quick);
+      if (score > best_score) best_score = score, best = way;
+    }
+    problems = ways[best];
+  }
+}
+
 }  // namespace
 
 Polygon slab(const Space& space, double start_m, double end_m) {
@@ -191,6 +238,9 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
   for (SpaceProblem& problem : problems) problem.rooms = fused(problem.rooms, set_aside);
 
   FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
+  RuleSet floor_rules = rules;
+  floor_rules.inner_wall_m = fitted.inner_wall_m;
+  add_doors(floor, floor_rules, observations, placement, problems, options);
   fit_spaces(fitted, rules, problems, options.space);
   fitted.set_aside.insert(fitted.set_aside.begin(), set_aside.begin(), set_aside.end());
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "floor/fitted_floor.h"
+#include "floor/hallway_doors.h"
 #include "floor/place.h"
 #include "grammar/rules.h"
 #include "grammar/space.h"
@@ -14,6 +15,7 @@ namespace gramap {
 
 struct FloorFitOptions {
   PlacementOptions placement;
+  HallwayDoorOptions doors;
   FitOptions space;
 };
 

@@ -105,6 +105,14 @@ RoomEvidence evidence_at_pin(const RoomObservation& room, const Space& space, co
 
 }  // namespace
 
+bool lies_on(const Polygon& outline, const Polygon& target, const PlacementOptions& options) {
+  const std::vector<Vec2> inside = samples(outline);
+  const auto hits =
+      std::count_if(inside.begin(), inside.end(), [&](const Vec2& point) { return contains(target, point); });
+  return static_cast<double>(hits) >=
+         options.least_overlap * static_cast<double>(std::max<std::size_t>(1, inside.size()));
+}
+
 double clear_length_m(const Space& space) {
   return (space.end - space.start).norm();
 }

@@ -44,6 +44,9 @@ struct Placement {
 Placement place_observations(const FloorGroundTruth& floor, const std::vector<RoomObservation>& observations,
                              const PlacementOptions& options = {});
 
+/// True when at least the share `least_overlap` of the outline's area lies in the target.
+bool lies_on(const Polygon& outline, const Polygon& target, const PlacementOptions& options = {});
+
 /// Clear length of the space along its reference line and its greatest depth away from it, metres.
 double clear_length_m(const Space& space);
 double clear_depth_m(const Space& space);
