@@ -4,9 +4,6 @@
 
 #include <cmath>
 
-#include "floor/fit_floor.h"
-#include "geometry/polygon.h"
-
 using namespace gramap;
 
 namespace {
@@ -93,13 +90,4 @@ TEST_CASE("rooms that lie nowhere are set aside with their reason, and cost noth
   CHECK(placement.set_aside[0].what == "a");
   CHECK(placement.set_aside[0].reason.find("no space") != std::string::npos);
   CHECK(placement.set_aside[1].what == "c");
-}
-
-TEST_CASE("slabs of a space share their cuts and add up to it") {
-  const Space space = two_spaces().spaces[1];
-  const Polygon first = slab(space, 0, 7), wall = slab(space, 7, 7.2), second = slab(space, 7.2, 20);
-  CHECK(signed_area(first) + signed_area(wall) + signed_area(second) ==
-        doctest::Approx(signed_area(space.outline)));
-  CHECK(contains(first, {19, 1}));
-  CHECK(contains(second, {1, 1}));
 }
