@@ -79,7 +79,8 @@ struct FloorGroundTruth {
   std::optional<double> ceiling_height_m;
   std::optional<double> inner_wall_m;
   std::optional<double> outer_wall_m;
-  Polygon outline;  ///< outer face of the outer walls; empty when the file has none
+  Polygon outline;                  ///< outer face of the outer walls; empty when the file has none
+  std::vector<Polygon> courtyards;  ///< holes of the outline: the outer faces of the walls around them
   std::vector<Hallway> hallways;
   std::vector<FixedRoom> fixed;
   std::vector<Space> spaces;

@@ -1,0 +1,15 @@
+// The fitted floor as GeoJSON of the floor file's own kinds: to be learned from, evaluated, edited, fitted
+// again.
+#pragma once
+
+#include <string>
+
+#include "floor/fitted_floor.h"
+
+namespace gramap {
+
+/// Outline, hallways, fixed rooms, spaces and reference lines as given, and the fitted rooms, doors, windows
+/// and furniture as the truth kinds.
+std::string to_geojson(const FittedFloor& floor);
+
+}  // namespace gramap

@@ -1,0 +1,79 @@
+// The floor model: a fitted floor as an exact planar partition and closed solids, ready to be verified and
+// exported. Plan coordinates are the floor file's; heights are metres above the floor's own finished level
+// (z = 0), its elevation is added on export.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "floor/fitted_floor.h"
+#include "geometry/mesh.h"
+#include "geometry/partition.h"
+
+namespace gramap {
+
+/// A room, hallway or fixed room with its faces. `fitted` is what the fit says of it.
+struct ModelRoom {
+  enum class Kind { room, hallway, fixed };
+  Kind kind = Kind::room;
+  std::string node;  ///< unique name of [A-Za-z0-9_-]
+  FittedRoom fitted;
+  double height_m = 0;
+  Mesh floor;    ///< faces up, z = 0
+  Mesh ceiling;  ///< faces down, z = height
+  Mesh volume;   ///< closed
+};
+
+/// A wall between two rooms or a room and the outside, a junction of walls, or solid mass.
+struct ModelWall {
+  std::string node;
+  std::string type;                ///< "inner", "outer", "junction", "mass"
+  std::vector<std::string> sides;  ///< ids of the rooms on both sides, "outside"
+  double thickness_m = 0;
+  double length_m = 0;
+  Mesh solid;
+  std::vector<int> cells;  ///< into FloorModel::plan.cells
+};
+
+/// A door or window with the parts that fill it, each a closed solid.
+struct ModelOpening {
+  std::string node;
+  std::string room;   ///< the id of the room whose observation or rule it comes from
+  std::string other;  ///< the id of the room behind the wall, or "outside"
+  int wall = -1;      ///< into FloorModel::walls
+  FittedOpening fitted;
+  std::vector<Vec2> footprint;  ///< the cut through the wall in the plan, counter-clockwise
+  /// The opening's own frame: origin at `fitted.a` on the room's face at z = 0, u along the face (to b), v
+  /// into the wall.
+  double width_m = 0;
+  double thickness_m = 0;
+};
+
+struct ModelFurniture {
+  std::string node;
+  std::string room;
+  FittedFurniture fitted;
+};
+
+struct FloorModel {
+  std::string name;
+  double elevation_m = 0;
+  double height_m = 0;  ///< of the walls
+  double slab_thickness_m = 0.3;
+  double finish_m = 0.02;        ///< the slab's top lies so much below the finished floor
+  FittedFloor fitted;            ///< what it was built from
+  std::vector<Polygon> outline;  ///< outer faces, counter-clockwise; courtyards clockwise
+  Partition plan;
+  std::vector<ModelRoom> rooms;  ///< hallways, fixed rooms, rooms
+  std::vector<ModelWall> walls;
+  std::vector<ModelOpening> openings;
+  std::vector<ModelFurniture> furniture;
+  Mesh slab;
+  std::vector<SetAsideInput> set_aside;  ///< openings and furniture that had no place, and why
+};
+
+/// Builds the model. Throws InputError when the floor's own geometry cannot be built (a self-crossing
+/// outline, a hallway that touches it, overlapping rooms), naming the parts and the place.
+FloorModel build_model(const FittedFloor& fitted);
+
+}  // namespace gramap
