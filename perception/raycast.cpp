@@ -10,8 +10,13 @@ namespace gramap {
 FaceSet::FaceSet(const std::vector<Face>& faces) {
   planes_.reserve(faces.size());
   for (const Face& face : faces) {
-    Plane plane{face.origin, face.u.cross(face.v).normalized(), face.u / face.u.squaredNorm(),
-                face.v / face.v.squaredNorm(), {}, {}, -1};
+    Plane plane{face.origin,
+                face.u.cross(face.v).normalized(),
+                face.u / face.u.squaredNorm(),
+                face.v / face.v.squaredNorm(),
+                {},
+                {},
+                -1};
     if (face.ring.empty()) {
       const Vec3 far_corner = face.origin + face.u + face.v;
       const Vec3 along_u = face.origin + face.u, along_v = face.origin + face.v;

@@ -8,8 +8,8 @@
 
 namespace gramap {
 
-/// A flat face: the rectangle `origin + s·u + t·v`, s and t in [0, 1], u and v at right angles. When `ring` is
-/// not empty the face is instead the polygon `ring` in the plan at the height of `origin`.
+/// A flat face: the rectangle `origin + s·u + t·v`, s and t in [0, 1], u and v at right angles. When `ring`
+/// is not empty the face is instead the polygon `ring` in the plan at the height of `origin`.
 struct Face {
   Vec3 origin = Vec3::Zero();
   Vec3 u = Vec3::UnitX();

@@ -1,5 +1,7 @@
 #include "perception/simulate.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,14 +78,15 @@ std::vector<Vec3> measure(const FaceSet& faces, const Eigen::Isometry3d& buildin
   const double half_vertical = 0.5 * options.fov_vertical_deg * kRadiansPerDegree;
   std::vector<Vec3> points;
   points.reserve(static_cast<std::size_t>(count));
-  // Rays into open windows and beyond the range return nothing; after four times the points the place is simply
-  // too open for its count.
+  // Rays into open windows and beyond the range return nothing; after four times the points the place is
+  // simply too open for its count.
   for (int ray = 0; ray < 4 * count && static_cast<int>(points.size()) < count; ++ray) {
     const double azimuth = random.uniform(-half_horizontal, half_horizontal);
     const double elevation = random.uniform(-half_vertical, half_vertical);
     const Vec3 direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                          std::sin(elevation));
-    double distance = near.distance(building_from_scanner.translation(), building_from_scanner.linear() * direction);
+    double distance =
+        near.distance(building_from_scanner.translation(), building_from_scanner.linear() * direction);
     const double error = random.normal(), astray = random.uniform(), where = random.uniform();
     if (distance > options.range_m) continue;
     distance += error * (options.noise_m + options.noise_growth_per_m * distance * distance);
@@ -93,15 +96,12 @@ std::vector<Vec3> measure(const FaceSet& faces, const Eigen::Isometry3d& buildin
   return points;
 }
 
-}  // namespace
-
-SimulatedRoom simulate_room(const Building& building, std::size_t index, const SimulateOptions& options) {
-  const BuildingRoom& room = building.rooms[index];
+SimulatedRoom simulate_room(const BuildingRoom& room, const FaceSet& faces, const SimulateOptions& options) {
   Random random(seed_for(options.seed, room.id));
-  const FaceSet faces(building_faces(building, options));
   const std::vector<Vec2> places = walk(room, positions_for(room, options), random);
 
-  // The poses' frame: the building's but for the drift, or one that the device made up when it was switched on.
+  // The poses' frame: the building's but for the drift, or one that the device made up when it was switched
+  // on.
   const Vec3 middle(centroid(room.outline).x(), centroid(room.outline).y(), 0);
   const Vec3 drift(options.drift_sd_m * random.normal(), options.drift_sd_m * random.normal(), 0);
   const double drift_rad = options.drift_sd_deg * kRadiansPerDegree * random.normal();
@@ -110,21 +110,37 @@ SimulatedRoom simulate_room(const Building& building, std::size_t index, const S
 
   SimulatedRoom simulated;
   for (const Vec2& place : places) {
-    const double eye = room.floor_m + std::clamp(options.eye_height_m + options.eye_height_sd_m * random.normal(),
-                                                 0.3, room.ceiling_m - room.floor_m - 0.1);
+    const double eye =
+        room.floor_m + std::clamp(options.eye_height_m + options.eye_height_sd_m * random.normal(), 0.3,
+                                  room.ceiling_m - room.floor_m - 0.1);
     const Eigen::Isometry3d building_from_scanner =
         turned({place.x(), place.y(), eye}, random.uniform(0, 360) * kRadiansPerDegree);
     if (options.room_frame && simulated.scans.empty())
-      frame_from_building = turned(Vec3::Zero(), own_heading) * turned(-building_from_scanner.translation(), 0);
+      frame_from_building =
+          turned(Vec3::Zero(), own_heading) * turned(-building_from_scanner.translation(), 0);
     const Vec3 slip = options.registration_sd_m * Vec3(random.normal(), random.normal(), random.normal());
     const double slip_rad = options.registration_sd_deg * kRadiansPerDegree * random.normal();
-    const int count = (options.points_per_room + static_cast<int>(places.size()) - 1) / static_cast<int>(places.size());
+    const int count =
+        (options.points_per_room + static_cast<int>(places.size()) - 1) / static_cast<int>(places.size());
     SimulatedScan scan;
     scan.points = measure(faces, building_from_scanner, count, options, random);
-    scan.frame_from_scanner = frame_from_building * turned(slip, 0) * building_from_scanner * turned(Vec3::Zero(), slip_rad);
+    scan.frame_from_scanner =
+        frame_from_building * turned(slip, 0) * building_from_scanner * turned(Vec3::Zero(), slip_rad);
     simulated.mean_position += place / static_cast<double>(places.size());
     simulated.scans.push_back(std::move(scan));
   }
+  return simulated;
+}
+
+}  // namespace
+
+std::vector<SimulatedRoom> simulate_rooms(const Building& building, const std::vector<std::size_t>& rooms,
+                                          const SimulateOptions& options) {
+  const FaceSet faces(building_faces(building, options));
+  std::vector<SimulatedRoom> simulated(rooms.size());
+  tbb::parallel_for(std::size_t{0}, rooms.size(), [&](std::size_t i) {
+    simulated[i] = simulate_room(building.rooms[rooms[i]], faces, options);
+  });
   return simulated;
 }
 

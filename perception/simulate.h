@@ -1,5 +1,5 @@
-// Scans of a building whose truth is known, as a person walking through it with a hand-held depth sensor would
-// take them. Feeds training, tests, examples, and anyone who wants to try a grammar without a phone.
+// Scans of a building whose truth is known, as a person walking through it with a hand-held depth sensor
+// would take them. Feeds training, tests, examples, and anyone who wants to try a grammar without a phone.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -42,8 +42,8 @@ struct Building {
   std::vector<BuildingRoom> rooms;
 };
 
-/// What the sensor, the person and the day are like. Lengths in metres, angles in degrees (they are options of
-/// the command), shares from 0 to 1.
+/// What the sensor, the person and the day are like. Lengths in metres, angles in degrees (they are options
+/// of the command), shares from 0 to 1.
 struct SimulateOptions {
   std::uint64_t seed = 1;
 
@@ -57,20 +57,20 @@ struct SimulateOptions {
   double fov_horizontal_deg = 360;  ///< the person turns around with the sensor; less: only part of a turn
   double fov_vertical_deg = 115;
   double range_m = 5;
-  double noise_m = 0.004;                 ///< standard deviation of a distance at 0 m …
-  double noise_growth_per_m = 0.0022;     ///< … plus this times distance² (1/m)
-  double stray_share = 0.002;             ///< points that are nowhere near a surface
-  double registration_sd_m = 0.008;       ///< error of a scan's position in its pose, each axis
-  double registration_sd_deg = 0.2;       ///< error of a scan's heading in its pose
-  double drift_sd_m = 0.10;               ///< rigid error of a whole room's poses, each plan axis
-  double drift_sd_deg = 0.5;              ///< rigid error of a whole room's heading
+  double noise_m = 0.004;              ///< standard deviation of a distance at 0 m …
+  double noise_growth_per_m = 0.0022;  ///< … plus this times distance² (1/m)
+  double stray_share = 0.002;          ///< points that are nowhere near a surface
+  double registration_sd_m = 0.008;    ///< error of a scan's position in its pose, each axis
+  double registration_sd_deg = 0.2;    ///< error of a scan's heading in its pose
+  double drift_sd_m = 0.10;            ///< rigid error of a whole room's poses, each plan axis
+  double drift_sd_deg = 0.5;           ///< rigid error of a whole room's heading
 
   // The day.
   double doors_closed_share = 0;
-  double doors_ajar_share = 0;       ///< leaf somewhere between 20° and 80°
-  double window_frame_m = 0;         ///< width of the frame around the pane; 0: no frame
-  double blinds_share = 0;           ///< windows with a blind let down by 20 to 60 % of their height
-  double outer_wall_m = 0.3;         ///< depth of the reveal of openings with no room behind
+  double doors_ajar_share = 0;  ///< leaf somewhere between 20° and 80°
+  double window_frame_m = 0;    ///< width of the frame around the pane; 0: no frame
+  double blinds_share = 0;      ///< windows with a blind let down by 20 to 60 % of their height
+  double outer_wall_m = 0.3;    ///< depth of the reveal of openings with no room behind
 
   /// true: the poses are in a frame of the room's own, origin at the first position, heading unknown.
   bool room_frame = false;
@@ -78,7 +78,8 @@ struct SimulateOptions {
 
 struct SimulatedScan {
   std::vector<Vec3> points;  ///< in the scanner's frame
-  Eigen::Isometry3d frame_from_scanner = Eigen::Isometry3d::Identity();  ///< as the pose says: with its errors
+  Eigen::Isometry3d frame_from_scanner =
+      Eigen::Isometry3d::Identity();  ///< as the pose says: with its errors
 };
 
 struct SimulatedRoom {
@@ -86,9 +87,11 @@ struct SimulatedRoom {
   Vec2 mean_position = Vec2::Zero();  ///< of the sensor, in the building's frame, without any error
 };
 
-/// Scans one room. Deterministic for a seed; independent of which other rooms are scanned. Throws InputError
-/// when the room is too small to stand in.
-SimulatedRoom simulate_room(const Building& building, std::size_t room, const SimulateOptions& options);
+/// Scans the named rooms (indices into the building's), many at a time. Deterministic for a seed, with any
+/// number of threads; a room's scans do not depend on which others are scanned. Throws InputError when a room
+/// is too small to stand in.
+std::vector<SimulatedRoom> simulate_rooms(const Building& building, const std::vector<std::size_t>& rooms,
+                                          const SimulateOptions& options);
 
 /// The bytes of a `.xyz` file: a point a line with `decimals` digits.
 std::string xyz_text(const std::vector<Vec3>& points, int decimals);

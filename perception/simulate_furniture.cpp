@@ -13,7 +13,8 @@ constexpr double kStool_m = 0.6;  // a chair taller than this has a back
 constexpr double kSeat_m = 0.46;
 
 Polygon rectangle(const Vec2& corner, const Vec2& along, double length, const Vec2& across, double breadth) {
-  return {corner, corner + length * along, corner + length * along + breadth * across, corner + breadth * across};
+  return {corner, corner + length * along, corner + length * along + breadth * across,
+          corner + breadth * across};
 }
 
 /// A plate on four legs near the corners of the box around `outline`.

@@ -12,9 +12,13 @@ namespace {
 
 constexpr double kThickestWall_m = 0.8;  // farther than this, the face behind is another room's far side
 
-Vec2 right_of(const Vec2& direction) { return {direction.y(), -direction.x()}; }
+Vec2 right_of(const Vec2& direction) {
+  return {direction.y(), -direction.x()};
+}
 
-Vec3 at_height(const Vec2& p, double z) { return {p.x(), p.y(), z}; }
+Vec3 at_height(const Vec2& p, double z) {
+  return {p.x(), p.y(), z};
+}
 
 /// An upright rectangle over the plan segment a–b.
 Face upright(const Vec2& a, const Vec2& b, double bottom, double top) {
@@ -41,7 +45,8 @@ std::vector<Edge> edges_of(const Polygon& ring) {
   return edges;
 }
 
-/// How far behind `point` the next room's face lies, looking along `outward`; the outer wall when there is none.
+/// How far behind `point` the next room's face lies, looking along `outward`; the outer wall when there is
+/// none.
 double wall_depth(const Building& building, std::size_t room, const Vec2& point, const Vec2& outward,
                   double outer_wall_m) {
   double depth = kThickestWall_m;
@@ -73,8 +78,14 @@ Aperture aperture_of(const Building& building, std::size_t room, const BuildingO
   const double from = std::min(along.dot(opening.a - best.a), along.dot(opening.b - best.a));
   const double to = std::max(along.dot(opening.a - best.a), along.dot(opening.b - best.a));
   const Vec2 outward = right_of(along);
-  return {opening.kind, best.a + from * along, best.a + to * along, outward, owner.floor_m + opening.sill_m,
-          owner.floor_m + opening.head_m, wall_depth(building, room, middle, outward, outer_wall_m), false};
+  return {opening.kind,
+          best.a + from * along,
+          best.a + to * along,
+          outward,
+          owner.floor_m + opening.sill_m,
+          owner.floor_m + opening.head_m,
+          wall_depth(building, room, middle, outward, outer_wall_m),
+          false};
 }
 
 std::vector<Aperture> apertures_of(const Building& building, double outer_wall_m) {
@@ -84,7 +95,8 @@ std::vector<Aperture> apertures_of(const Building& building, double outer_wall_m
       Aperture hole = aperture_of(building, room, opening, outer_wall_m);
       for (const Aperture& other : all) {
         const Vec2 between = 0.5 * (other.a + other.b) - 0.5 * (hole.a + hole.b);
-        if (hole.outward.dot(other.outward) < -0.99 && std::abs(hole.outward.dot(between) - hole.depth) < 0.05 &&
+        if (hole.outward.dot(other.outward) < -0.99 &&
+            std::abs(hole.outward.dot(between) - hole.depth) < 0.05 &&
             std::abs(right_of(hole.outward).dot(between)) < 0.2)
           hole.mirrored = true;
       }
@@ -150,7 +162,8 @@ void add_reveal(std::vector<Face>& faces, const Aperture& hole) {
 }
 
 /// A leaf, closed in the middle of the wall or ajar, turned into the room around one of its two edges.
-void add_leaf(std::vector<Face>& faces, const Aperture& hole, const SimulateOptions& options, Random& random) {
+void add_leaf(std::vector<Face>& faces, const Aperture& hole, const SimulateOptions& options,
+              Random& random) {
   const double state = random.uniform();
   const bool hinge_at_a = random.chance(0.5);
   const double opened_rad = random.uniform(20, 80) * 3.141592653589793 / 180;
@@ -160,13 +173,16 @@ void add_leaf(std::vector<Face>& faces, const Aperture& hole, const SimulateOpti
   } else if (state < options.doors_closed_share + options.doors_ajar_share) {
     const Vec2 hinge = hinge_at_a ? hole.a : hole.b;
     const Vec2 shut = hinge_at_a ? Vec2(hole.b - hole.a) : Vec2(hole.a - hole.b);
-    const Vec2 free_edge = hinge + std::cos(opened_rad) * shut - std::sin(opened_rad) * shut.norm() * hole.outward;
+    const Vec2 free_edge =
+        hinge + std::cos(opened_rad) * shut - std::sin(opened_rad) * shut.norm() * hole.outward;
     const Vec2 thickness = 0.04 * right_of((free_edge - hinge).normalized());
-    add_prism(faces, {hinge, free_edge, free_edge + thickness, hinge + thickness}, hole.bottom + 0.005, hole.top);
+    add_prism(faces, {hinge, free_edge, free_edge + thickness, hinge + thickness}, hole.bottom + 0.005,
+              hole.top);
   }
 }
 
-void add_window(std::vector<Face>& faces, const Aperture& hole, const SimulateOptions& options, Random& random) {
+void add_window(std::vector<Face>& faces, const Aperture& hole, const SimulateOptions& options,
+                Random& random) {
   const double drawn = random.uniform(), lowered = random.uniform(0.2, 0.6);
   const Vec2 along = (hole.b - hole.a).normalized();
   const Vec2 pane = 0.6 * hole.depth * hole.outward;
@@ -179,7 +195,8 @@ void add_window(std::vector<Face>& faces, const Aperture& hole, const SimulateOp
     faces.push_back(upright(a + frame * along, b - frame * along, hole.top - frame, hole.top));
     if (width > 1.3) {
       const Vec2 middle = 0.5 * (a + b);
-      faces.push_back(upright(middle - 0.5 * frame * along, middle + 0.5 * frame * along, hole.bottom, hole.top));
+      faces.push_back(
+          upright(middle - 0.5 * frame * along, middle + 0.5 * frame * along, hole.bottom, hole.top));
     }
   }
   if (drawn < options.blinds_share) {

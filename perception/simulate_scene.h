@@ -1,4 +1,5 @@
-// A building's surfaces as flat faces: walls with their openings cut, reveals, leaves, frames, blinds, furniture.
+// A building's surfaces as flat faces: walls with their openings cut, reveals, leaves, frames, blinds,
+// furniture.
 #pragma once
 
 #include "perception/raycast.h"
@@ -6,8 +7,9 @@
 
 namespace gramap {
 
-/// All faces that rays from inside the rooms can hit. Panes are transparent: they have none. The state of every
-/// door and blind comes from the seed and its place alone, so it is the same from both sides of the wall.
+/// All faces that rays from inside the rooms can hit. Panes are transparent: they have none. The state of
+/// every door and blind comes from the seed and its place alone, so it is the same from both sides of the
+/// wall.
 std::vector<Face> building_faces(const Building& building, const SimulateOptions& options);
 
 /// An upright prism over `outline` between two heights: its sides, its top, and its underside.

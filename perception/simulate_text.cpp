@@ -13,7 +13,8 @@ std::string xyz_text(const std::vector<Vec3>& points, int decimals) {
   char digits[64];
   for (const Vec3& p : points)
     for (int axis = 0; axis < 3; ++axis) {
-      const auto end = std::to_chars(digits, digits + sizeof digits, p[axis], std::chars_format::fixed, decimals);
+      const auto end =
+          std::to_chars(digits, digits + sizeof digits, p[axis], std::chars_format::fixed, decimals);
       text.append(digits, end.ptr);
       text.push_back(axis < 2 ? ' ' : '\n');
     }
@@ -36,8 +37,8 @@ std::string pose_text(const Eigen::Isometry3d& frame_from_scanner) {
   }
   const double degrees = 180 / 3.141592653589793;
   char text[200];
-  std::snprintf(text, sizeof text, "%.4f %.4f %.4f\n%.6f %.6f %.6f\n", t.x(), t.y(), t.z(), x * degrees, y * degrees,
-                z * degrees);
+  std::snprintf(text, sizeof text, "%.4f %.4f %.4f\n%.6f %.6f %.6f\n", t.x(), t.y(), t.z(), x * degrees,
+                y * degrees, z * degrees);
   return text;
 }
 
