@@ -120,8 +120,9 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
 FittedFloor given_floor(const FloorGroundTruth& floor, const RuleSet& rules, double height_m) {
   FittedFloor fitted;
   fitted.floor = floor;
-  fitted.inner_wall_m = floor.inner_wall_m.value_or(rules.inner_wall_m);
-  fitted.outer_wall_m = floor.outer_wall_m.value_or(rules.outer_wall_m);
+  const RuleSet here = rules_on_floor(rules, floor);
+  fitted.inner_wall_m = here.inner_wall_m;
+  fitted.outer_wall_m = here.outer_wall_m;
   fitted.height_m = height_m;
   for (const Hallway& hallway : floor.hallways)
     fitted.hallways.push_back(given_room(hallway.id, hallway.name, "Hallway", hallway.outline, height_m));
@@ -130,10 +131,8 @@ FittedFloor given_floor(const FloorGroundTruth& floor, const RuleSet& rules, dou
   return fitted;
 }
 
-void fit_spaces(FittedFloor& fitted, const RuleSet& rules_of_file, const std::vector<SpaceProblem>& problems,
+void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                 const FitOptions& options) {
-  RuleSet rules = rules_of_file;
-  rules.inner_wall_m = fitted.inner_wall_m;
   std::vector<SpaceFit> fits(problems.size());
   std::vector<std::exception_ptr> faults(problems.size());
   tbb::parallel_for(std::size_t{0}, problems.size(), [&](std::size_t i) {
@@ -214,14 +213,24 @@ Polygon slab(const Space& space, double start_m, double end_m) {
 FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
                       const std::vector<SpaceProblem>& problems, const FitOptions& options) {
   FittedFloor fitted = given_floor(floor, rules, floor.ceiling_height_m.value_or(rules.height_m));
-  fit_spaces(fitted, rules, problems, options);
+  fit_spaces(fitted, rules_on_floor(rules, floor), problems, options);
   return fitted;
 }
 
-FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
-                      const std::vector<RoomObservation>& observations, const FloorFitOptions& options) {
-  const Placement placement = place_observations(floor, observations, options.placement);
+RuleSet rules_on_floor(const RuleSet& rules, const FloorGroundTruth& floor) {
+  RuleSet result = rules;
+  result.inner_wall_m = floor.inner_wall_m.value_or(rules.inner_wall_m);
+  result.outer_wall_m = floor.outer_wall_m.value_or(rules.outer_wall_m);
+  result.height_m = floor.ceiling_height_m.value_or(rules.height_m);
+  return result;
+}
 
+std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const RuleSet& rules,
+                                         const std::vector<RoomObservation>& observations,
+                                         const FloorFitOptions& options,
+                                         std::vector<SetAsideInput>& set_aside) {
+  const Placement placement = place_observations(floor, observations, options.placement);
+  set_aside.insert(set_aside.end(), placement.set_aside.begin(), placement.set_aside.end());
   std::vector<SpaceProblem> problems;
   for (const Space& space : floor.spaces) {
     SpaceProblem problem;
@@ -234,22 +243,25 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
   for (const PlacedObservation& placed : placement.placed)
     if (placed.on == PlacedObservation::On::space)
       problems[static_cast<std::size_t>(placed.index)].rooms.push_back(placed.evidence);
-  std::vector<SetAsideInput> set_aside = placement.set_aside;
   for (SpaceProblem& problem : problems) problem.rooms = fused(problem.rooms, set_aside);
+  add_doors(floor, rules_on_floor(rules, floor), observations, placement, problems, options);
+  return problems;
+}
 
+FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
+                      const std::vector<RoomObservation>& observations, const FloorFitOptions& options) {
+  std::vector<SetAsideInput> set_aside;
+  const std::vector<SpaceProblem> problems = space_problems(floor, rules, observations, options, set_aside);
   FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
-  RuleSet floor_rules = rules;
-  floor_rules.inner_wall_m = fitted.inner_wall_m;
-  add_doors(floor, floor_rules, observations, placement, problems, options);
-  fit_spaces(fitted, rules, problems, options.space);
+  fit_spaces(fitted, rules_on_floor(rules, floor), problems, options.space);
   fitted.set_aside.insert(fitted.set_aside.begin(), set_aside.begin(), set_aside.end());
 
-  for (const PlacedObservation& placed : placement.placed) {
-    const RoomObservation& observation = observations[static_cast<std::size_t>(placed.observation)];
+  for (const PlacedObservation& placed : place_observations(floor, observations, options.placement).placed) {
     if (placed.on == PlacedObservation::On::space) continue;
-    FittedRoom& room = placed.on == PlacedObservation::On::hallway
-                           ? fitted.hallways[static_cast<std::size_t>(placed.index)]
-                           : fitted.fixed[static_cast<std::size_t>(placed.index)];
+    const RoomObservation& observation = observations[static_cast<std::size_t>(placed.observation)];
+    const auto index = static_cast<std::size_t>(placed.index);
+    FittedRoom& room =
+        placed.on == PlacedObservation::On::hallway ? fitted.hallways[index] : fitted.fixed[index];
     room.scans.push_back(observation.room);
     const OrientedBox seen = oriented_box(observation.outline);
     room.extracted_width_m = seen.length_m;

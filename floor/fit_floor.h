@@ -24,6 +24,16 @@ struct FloorFitOptions {
 FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
                       const std::vector<RoomObservation>& observations, const FloorFitOptions& options = {});
 
+/// What the observations say of each space: one problem per space of the floor, in its order, with scanned
+/// rooms and the doors that scanned hallways show. Adds what lies nowhere to `set_aside`.
+std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const RuleSet& rules,
+                                         const std::vector<RoomObservation>& observations,
+                                         const FloorFitOptions& options,
+                                         std::vector<SetAsideInput>& set_aside);
+
+/// The rules as they hold on this floor: its own wall thicknesses and height go before the rule file's.
+RuleSet rules_on_floor(const RuleSet& rules, const FloorGroundTruth& floor);
+
 /// The same from evidence that is on its spaces already: one problem per space of the floor, in its order.
 FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
                       const std::vector<SpaceProblem>& problems, const FitOptions& options = {});
