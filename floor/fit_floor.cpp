@@ -210,13 +210,6 @@ Polygon slab(const Space& space, double start_m, double end_m) {
   return piece;
 }
 
-FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
-                      const std::vector<SpaceProblem>& problems, const FitOptions& options) {
-  FittedFloor fitted = given_floor(floor, rules, floor.ceiling_height_m.value_or(rules.height_m));
-  fit_spaces(fitted, rules_on_floor(rules, floor), problems, options);
-  return fitted;
-}
-
 RuleSet rules_on_floor(const RuleSet& rules, const FloorGroundTruth& floor) {
   RuleSet result = rules;
   result.inner_wall_m = floor.inner_wall_m.value_or(rules.inner_wall_m);
@@ -249,13 +242,10 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
 }
 
 FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
+                      const std::vector<SpaceProblem>& problems,
                       const std::vector<RoomObservation>& observations, const FloorFitOptions& options) {
-  std::vector<SetAsideInput> set_aside;
-  const std::vector<SpaceProblem> problems = space_problems(floor, rules, observations, options, set_aside);
   FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
   fit_spaces(fitted, rules_on_floor(rules, floor), problems, options.space);
-  fitted.set_aside.insert(fitted.set_aside.begin(), set_aside.begin(), set_aside.end());
-
   for (const PlacedObservation& placed : place_observations(floor, observations, options.placement).placed) {
     if (placed.on == PlacedObservation::On::space) continue;
     const RoomObservation& observation = observations[static_cast<std::size_t>(placed.observation)];

@@ -19,11 +19,6 @@ struct FloorFitOptions {
   FitOptions space;
 };
 
-/// The most probable complete floor. What of the input had to be set aside is said in the result. Throws
-/// InputError when a space has no derivation at all.
-FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
-                      const std::vector<RoomObservation>& observations, const FloorFitOptions& options = {});
-
 /// What the observations say of each space: one problem per space of the floor, in its order, with scanned
 /// rooms and the doors that scanned hallways show. Adds what lies nowhere to `set_aside`.
 std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const RuleSet& rules,
@@ -34,9 +29,13 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
 /// The rules as they hold on this floor: its own wall thicknesses and height go before the rule file's.
 RuleSet rules_on_floor(const RuleSet& rules, const FloorGroundTruth& floor);
 
-/// The same from evidence that is on its spaces already: one problem per space of the floor, in its order.
+/// The most probable complete floor, from one problem per space in the floor's order. `observations` are
+/// those that the problems come from, if any: they add heights and what was measured of the hallways. What of
+/// the input had to be set aside is said in the result. Throws InputError when a space has no derivation at
+/// all.
 FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
-                      const std::vector<SpaceProblem>& problems, const FitOptions& options = {});
+                      const std::vector<SpaceProblem>& problems,
+                      const std::vector<RoomObservation>& observations, const FloorFitOptions& options = {});
 
 /// The piece of a space between two positions along its reference line, as a clear outline.
 Polygon slab(const Space& space, double start_m, double end_m);
