@@ -18,7 +18,10 @@ int main(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
 
   int code = kDone;
-  const std::vector<Verb (*)(CLI::App&)> verbs = {declare_check, declare_simulate};
+  const std::vector<Verb (*)(CLI::App&)> verbs = {
+      declare_check,     //
+      declare_simulate,  //
+  };
   for (const auto declare : verbs) {
     const Verb verb = declare(app);
     app.get_subcommands([](const CLI::App*) { return true; }).back()->callback([&code, verb] {
