@@ -5,6 +5,7 @@
 
 #include "floor/geojson.h"
 #include "floor/ground_truth.h"
+#include "floor/read_indoor.h"
 #include "floor/reference_line.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
@@ -99,6 +100,7 @@ std::string nearest_hallway(const FloorGroundTruth& floor, const Vec2& from) {
 }  // namespace
 
 FloorGroundTruth read_floor(const std::filesystem::path& path) {
+  if (is_indoor_plan(path)) return only_level(path).floor;
   const GeoFile file = read_geojson(floor_file(path, "floor.geojson"));
   FloorGroundTruth floor;
   floor.name = text_of(file.members, "name");

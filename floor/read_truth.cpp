@@ -3,6 +3,7 @@
 
 #include "floor/geojson.h"
 #include "floor/ground_truth.h"
+#include "floor/read_indoor.h"
 #include "floor/reference_line.h"
 #include "geometry/error.h"
 
@@ -56,6 +57,7 @@ TrueFurniture read_furniture(const GeoFile& file, const GeoFeature& feature) {
 }  // namespace
 
 FloorTruth read_truth(const std::filesystem::path& path, const std::optional<GeoOrigin>& about) {
+  if (is_indoor_plan(path)) return only_level(path).truth;
   std::optional<GeoOrigin> origin = about;
   std::error_code ignored;
   if (!origin && std::filesystem::exists(path / "floor.geojson", ignored))

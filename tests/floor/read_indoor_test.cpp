@@ -1,0 +1,130 @@
+#include "floor/read_indoor.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/error.h"
+#include "geometry/polygon.h"
+#include "tests/floor/temporary_file.h"
+
+using namespace gramap;
+
+namespace {
+
+const GeoOrigin kOrigin{13.7, 51.0};
+
+/// A rectangle of a plan that is turned by 0.3 rad, as WGS84 coordinates.
+std::string corner(double x, double y) {
+  const Vec2 turned(std::cos(0.3) * x - std::sin(0.3) * y, std::sin(0.3) * x + std::cos(0.3) * y);
+  const Vec2 degrees = wgs84_from_plan(kOrigin, turned);
+  char text[64];
+  std::snprintf(text, sizeof text, "[%.10f,%.10f]", degrees.x(), degrees.y());
+  return text;
+}
+std::string box(double x0, double y0, double x1, double y1) {
+  return R"("geometry":{"type":"Polygon","coordinates":[[)" + corner(x0, y0) + "," + corner(x1, y0) + "," +
+         corner(x1, y1) + "," + corner(x0, y1) + "," + corner(x0, y0) + "]]}";
+}
+std::string point(double x, double y) {
+  return R"("geometry":{"type":"Point","coordinates":)" + corner(x, y) + "}";
+}
+std::string feature(const std::string& properties, const std::string& geometry) {
+  return R"({"type":"Feature","properties":{)" + properties + "}," + geometry + "}";
+}
+std::string collection(const std::string& features) {
+  return R"({"type":"FeatureCollection","features":[)" + features + "]}";
+}
+
+/// A hallway of 12 x 2 m with three rooms above it and one below, a staircase at its end.
+std::string osm_plan(const std::string& level) {
+  const std::string on = R"(,"level":")" + level + "\"";
+  return feature(R"("indoor":"corridor","ref":"F")" + on, box(0, 0, 12, 2)) + "," +
+         feature(R"("indoor":"room","ref":"1")" + on, box(0, 2, 3, 7)) + "," +
+         feature(R"("indoor":"room","ref":"2")" + on, box(3, 2, 9, 7)) + "," +
+         feature(R"("indoor":"room","ref":"3","amenity":"toilets")" + on, box(9, 2, 12, 7)) + "," +
+         feature(R"("indoor":"room","ref":"4")" + on, box(0, -4, 12, 0)) + "," +
+         feature(R"("indoor":"room","stairs":"yes","ref":"T")" + on, box(12, 0, 15, 2)) + "," +
+         feature(R"("door":"hinged")" + on, point(4, 2)) + "," +
+         feature(R"("door":"hinged","width":"1.2")" + on, point(6, 0));
+}
+
+}  // namespace
+
+TEST_CASE("an OpenStreetMap plan becomes a floor with spaces, walls and doors, turned as it is") {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("plan.geojson", collection(osm_plan("1")));
+  REQUIRE(is_indoor_plan(path));
+  const std::vector<IndoorFloor> floors = read_indoor(path);
+  REQUIRE(floors.size() == 1);
+  const auto& [floor, truth] = floors[0];
+  CHECK(floor.inner_wall_m == doctest::Approx(0.2));
+  CHECK(floor.fixed.size() == 1);
+  REQUIRE(floor.spaces.size() == 2);
+  // Half a wall is split off at either end.
+  CHECK((floor.spaces[0].end - floor.spaces[0].start).norm() == doctest::Approx(11.8).epsilon(0.001));
+  const Vec2 along = (floor.spaces[0].end - floor.spaces[0].start).normalized();
+  CHECK(std::atan2(along.y(), along.x()) == doctest::Approx(0.3).epsilon(0.001));
+  CHECK(signed_area(floor.spaces[0].outline) == doctest::Approx(11.8 * 4.8).epsilon(0.001));
+  REQUIRE(truth.rooms.size() == 4);
+  CHECK(signed_area(truth.rooms[0].outline) == doctest::Approx(2.8 * 4.8).epsilon(0.001));
+  CHECK(truth.rooms[2].type == "WC");
+  REQUIRE(truth.openings.size() == 2);
+  CHECK(truth.openings[0].room == "2");
+  CHECK(truth.openings[0].width_m == doctest::Approx(0.9));
+  CHECK(truth.openings[1].room == "4");
+  CHECK(truth.openings[1].width_m == doctest::Approx(1.2));
+  CHECK(read_floor(path).spaces.size() == 2);
+}
+
+TEST_CASE("a plan of several levels: each by itself, one by its name, all together refused") {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("plan.geojson", collection(osm_plan("1;2") + "," + osm_plan("0")));
+  CHECK(read_indoor(path).size() == 3);
+  CHECK(read_floor(path.string() + "#2").name.ends_with("level 2"));
+  CHECK_THROWS_AS(read_floor(path), InputError);
+  CHECK_THROWS_AS(read_floor(path.string() + "#7"), InputError);
+}
+
+TEST_CASE("an IMDF folder becomes the same floor") {
+  const auto unit = [](const std::string& id, const std::string& category, const std::string& geometry) {
+    return R"({"type":"Feature","id":")" + id +
+           R"(","feature_type":"unit","properties":{"level_id":"L","category":")" + category +
+           R"(","name":{"en":"Room"}},)" + geometry + "}";
+  };
+  const test::TemporaryFolder folder;
+  folder.write("unit.geojson", collection(unit("a", "walkway", box(0, 0, 12, 2)) + "," +
+                                          unit("b", "office", box(0, 2.3, 5.9, 7)) + "," +
+                                          unit("c", "restroom.male", box(6.1, 2.3, 12, 7)) + "," +
+                                          unit("d", "opentobelow", box(0, -5, 12, -0.3)) + "," +
+                                          unit("e", "elevator", box(12.3, 0, 14, 2))));
+  folder.write(
+      "level.geojson",
+      collection(
+          R"({"type":"Feature","id":"L","feature_type":"level","properties":{"ordinal":2},"geometry":null})"));
+  folder.write(
+      "opening.geojson",
+      collection(R"({"type":"Feature","id":"o","feature_type":"opening","properties":{"level_id":"L"},)"
+                 R"("geometry":{"type":"LineString","coordinates":[)" +
+                 corner(1, 2.15) + "," + corner(2, 2.15) + "]}}"));
+  REQUIRE(is_indoor_plan(folder.path()));
+  const IndoorFloor indoor = only_level(folder.path());
+  CHECK(indoor.floor.name.ends_with("level 2"));
+  CHECK(indoor.floor.inner_wall_m ==
+        doctest::Approx(0.2));  // as drawn, not assumed: the rooms stay as they are
+  CHECK(signed_area(indoor.truth.rooms[0].outline) == doctest::Approx(5.9 * 4.7).epsilon(0.001));
+  REQUIRE(indoor.floor.spaces.size() == 1);
+  CHECK(indoor.truth.rooms.size() == 2);
+  CHECK(indoor.truth.rooms[0].type == "Office");
+  CHECK(indoor.truth.rooms[1].type == "WC");
+  CHECK(indoor.floor.fixed[0].type == "Lift");
+  REQUIRE(indoor.truth.openings.size() == 1);
+  CHECK(indoor.truth.openings[0].width_m == doctest::Approx(1).epsilon(0.001));
+}
+
+TEST_CASE("a plan without a hallway is refused") {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("plan.geojson", collection(feature(R"("indoor":"room")", box(0, 0, 3, 3))));
+  CHECK_THROWS_AS(read_indoor(path), InputError);
+}
