@@ -1,0 +1,114 @@
+// `gramap perceive`: the scans of rooms in, what they say of each room out.
+#include "perception/perceive.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/verbs.h"
+#include "geometry/error.h"
+#include "geometry/file.h"
+
+namespace gramap {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string output = "-";
+  std::string unit, up = "z";
+  bool verbose = false;
+  PerceptionOptions perception;
+};
+
+/// Folders of rooms named directly, and those inside a `scans` folder or a floor folder.
+std::vector<fs::path> rooms_of(const std::vector<std::string>& folders) {
+  std::vector<fs::path> rooms;
+  for (const std::string& folder : folders) {
+    fs::path path = folder;
+    if (fs::is_directory(path / "scans")) path /= "scans";
+    std::vector<fs::path> inside;
+    std::error_code error;
+    bool has_files = false;
+    for (fs::directory_iterator it(path, error), last; !error && it != last; it.increment(error)) {
+      has_files |= it->is_regular_file();
+      if (it->is_directory()) inside.push_back(it->path());
+    }
+    std::sort(inside.begin(), inside.end());
+    if (has_files || inside.empty())
+      rooms.push_back(path);
+    else
+      rooms.insert(rooms.end(), inside.begin(), inside.end());
+  }
+  return rooms;
+}
+
+void print_fault(const InputError& error) {
+  const std::string place = to_string(error.place);
+  std::fprintf(stderr, "gramap: %s%s%s\n", place.c_str(), place.empty() ? "" : ": ", error.what());
+  if (!error.advice.empty()) std::fprintf(stderr, "  help: %s\n", error.advice.c_str());
+}
+
+int run(const Options& options) {
+  const std::vector<fs::path> rooms = rooms_of(options.folders);
+  ReadOptions reading;
+  if (options.unit == "mm") reading.unit_m = 0.001;
+  if (options.unit == "cm") reading.unit_m = 0.01;
+  if (options.unit == "m") reading.unit_m = 1;
+  reading.up = options.up == "y" ? 'y' : 'z';
+  PerceptionOptions perception = options.perception;
+  if (options.verbose)
+    perception.on_stage = [](const std::string& stage, double seconds) {
+      std::fprintf(stderr, "  %-12s %8.1f ms\n", stage.c_str(), seconds * 1e3);
+    };
+  const bool many = rooms.size() > 1;
+  if (many && options.output == "-")
+    throw CLI::ValidationError("-o", "several rooms need a folder to write to: -o FOLDER");
+  std::size_t bad = 0;
+  for (const fs::path& folder : rooms) {
+    try {
+      if (options.verbose) std::fprintf(stderr, "%s\n", folder.c_str());
+      const RoomObservation room = perceive_room(read_room_scans(folder, reading), perception);
+      fs::path output = options.output;
+      if (many) {
+        fs::create_directories(output);
+        output /= room.room + ".json";
+      }
+      write_file(output, to_json(room));
+      std::fprintf(stderr, "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls\n", room.room.c_str(),
+                   room.width.value_m, room.width.sigma_m, room.depth.value_m, room.depth.sigma_m, room.height.value_m,
+                   room.height.sigma_m, room.walls.size());
+      for (const std::string& remark : room.remarks) std::fprintf(stderr, "  %s\n", remark.c_str());
+    } catch (const InputError& error) {
+      if (!many) throw;
+      print_fault(error);
+      ++bad;
+    }
+  }
+  if (bad == rooms.size()) return kInputFault;
+  return bad ? kSetAside : kDone;
+}
+
+}  // namespace
+
+Verb declare_perceive(CLI::App& gramap) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = gramap.add_subcommand("perceive", "Say of each room's scans how large the room is and where its walls are");
+  verb->add_option("folders", options->folders, "Folders of one room's scans each, or a folder of such folders")->required();
+  verb->add_option("-o,--output", options->output,
+                   "The file for one room (- is standard output); for several, the folder for their ROOM.json")
+      ->capture_default_str();
+  verb->add_option("--unit", options->unit, "Length unit of the scans' points; without it metres, and others are refused")
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
+  verb->add_option("--up", options->up, "The scans' axis that points up")->check(CLI::IsMember({"y", "z"}))->capture_default_str();
+  verb->add_option("--seed", options->perception.hough.seed, "Seed of the random triples")->capture_default_str();
+  verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
+  return [options] { return run(*options); };
+}
+
+}  // namespace gramap

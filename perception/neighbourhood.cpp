@@ -1,0 +1,93 @@
+#include "perception/neighbourhood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace gramap {
+namespace {
+
+constexpr std::uint64_t kAxisBits = 21, kAxisMask = (std::uint64_t{1} << kAxisBits) - 1;
+
+std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
+  return (static_cast<std::uint64_t>(x) & kAxisMask) << (2 * kAxisBits) |
+         (static_cast<std::uint64_t>(y) & kAxisMask) << kAxisBits | (static_cast<std::uint64_t>(z) & kAxisMask);
+}
+
+}  // namespace
+
+Neighbourhood::Neighbourhood(std::vector<Point> points, double edge_m) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  order.reserve(points.size());
+  const auto index = [&](float coordinate) { return static_cast<std::int64_t>(std::floor(coordinate / edge_m)); };
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    order.emplace_back(key_of(index(points[i].x()), index(points[i].y()), index(points[i].z())), i);
+  std::sort(order.begin(), order.end());
+
+  std::vector<std::uint64_t> keys;
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || order[i].first != order[i - 1].first) {
+      keys.push_back(order[i].first);
+      voxels_.push_back({.begin = i});
+    }
+    voxels_.back().end = i + 1;
+    points_.push_back(points[order[i].second]);
+    voxel_of_.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
+  }
+  std::unordered_map<std::uint64_t, std::uint32_t> at;
+  at.reserve(2 * keys.size());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) at.emplace(keys[i], i);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    voxels_[i].first_neighbour = static_cast<std::uint32_t>(neighbours_.size());
+    const std::uint64_t x = keys[i] >> (2 * kAxisBits), y = (keys[i] >> kAxisBits) & kAxisMask, z = keys[i] & kAxisMask;
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dz = -1; dz <= 1; ++dz) {
+          const auto found = at.find(key_of(static_cast<std::int64_t>(x) + dx, static_cast<std::int64_t>(y) + dy,
+                                            static_cast<std::int64_t>(z) + dz));
+          if (found != at.end()) neighbours_.push_back(found->second);
+        }
+    voxels_[i].neighbour_count = static_cast<std::uint32_t>(neighbours_.size()) - voxels_[i].first_neighbour;
+  }
+  count_around();
+}
+
+void Neighbourhood::count_around() {
+  for (Voxel& voxel : voxels_) {
+    voxel.around = 0;
+    for (std::uint32_t n = 0; n < voxel.neighbour_count; ++n) {
+      const Voxel& neighbour = voxels_[neighbours_[voxel.first_neighbour + n]];
+      voxel.around += neighbour.end - neighbour.begin;
+    }
+  }
+}
+
+std::uint32_t Neighbourhood::draw(std::uint32_t i, Random& random) const {
+  const Voxel& voxel = voxels_[voxel_of_[i]];
+  std::uint32_t skip = random.below(voxel.around);
+  for (std::uint32_t n = 0;; ++n) {
+    const Voxel& neighbour = voxels_[neighbours_[voxel.first_neighbour + n]];
+    const std::uint32_t count = neighbour.end - neighbour.begin;
+    if (skip < count) return neighbour.begin + skip;
+    skip -= count;
+  }
+}
+
+void Neighbourhood::remove(const std::vector<std::uint8_t>& flagged) {
+  std::uint32_t kept = 0;
+  for (Voxel& voxel : voxels_) {
+    const std::uint32_t begin = kept;
+    for (std::uint32_t i = voxel.begin; i < voxel.end; ++i)
+      if (!flagged[i]) {
+        points_[kept] = points_[i];
+        voxel_of_[kept++] = voxel_of_[i];
+      }
+    voxel.begin = begin;
+    voxel.end = kept;
+  }
+  points_.resize(kept);
+  voxel_of_.resize(kept);
+  count_around();
+}
+
+}  // namespace gramap

@@ -1,0 +1,95 @@
+#include "perception/perceive.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/error.h"
+#include "geometry/polygon.h"
+#include "perception/measure.h"
+#include "perception/storey.h"
+
+namespace gramap {
+namespace {
+
+/// Reports each stage when it ends.
+class Stages {
+ public:
+  explicit Stages(const PerceptionOptions& options) : options_(options) {}
+  void end(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    if (options_.on_stage) options_.on_stage(stage, std::chrono::duration<double>(now - start_).count());
+    start_ = now;
+  }
+
+ private:
+  const PerceptionOptions& options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Perception perceive_structure(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options) {
+  Perception found;
+  found.cloud = std::move(cloud);
+  Stages stages(options);
+  found.planes = detect_planes(found.cloud.points_m, options.hough);
+  stages.end("planes");
+  found.storey = find_storey(found.planes, found.cloud, room, options.walls);
+  found.walls = wall_lines(found.planes, found.cloud, found.storey, options.walls);
+  stages.end("walls");
+  found.free = free_space(found.cloud, found.walls, found.storey);
+  stages.end("free space");
+  found.outline = room_outline(found.walls, found.free, found.cloud, options.outline);
+  stages.end("outline");
+  if (found.outline.ring.size() < 3) {
+    char text[200];
+    std::snprintf(text, sizeof text, "no room was found around the scanners: %zu planes, %zu of them walls that reach the ceiling",
+                  found.planes.size(), found.walls.size());
+    throw InputError({room}, text, "scan every wall of the room, up to the ceiling");
+  }
+  const std::vector<MeasuredWall> measured = measure_walls(found.outline, found.walls, found.cloud, found.storey);
+
+  RoomObservation& seen = found.observation;
+  const Vec3& origin = found.cloud.origin_m;
+  seen.room = room;
+  seen.points = found.cloud.points_m.size();
+  for (const RegisteredCloud::Part& part : found.cloud.parts) seen.scanner_positions.push_back(part.scanner_m + origin);
+  for (const Vec2& corner : found.outline.ring) seen.outline.push_back(corner + origin.head<2>());
+  for (std::size_t i = 0; i < seen.outline.size(); ++i) {
+    WallObservation wall;
+    wall.a = seen.outline[i];
+    wall.b = seen.outline[(i + 1) % seen.outline.size()];
+    wall.sigma_m = measured[i].sigma_m;
+    wall.plane_rms_m = measured[i].rms_m;
+    wall.support = measured[i].support;
+    wall.seen_share = found.outline.wall_share[i];
+    seen.walls.push_back(wall);
+  }
+  seen.floor_z_m = found.storey.floor_z_m + origin.z();
+  seen.ceiling_z_m = found.storey.ceiling_z_m + origin.z();
+  seen.height = {found.storey.height_m(), std::hypot(found.storey.floor_sigma_m, found.storey.ceiling_sigma_m)};
+  measure_extent(seen);
+  seen.remarks = found.outline.remarks;
+  stages.end("measures");
+  return found;
+}
+
+RoomObservation perceive_room(const RoomScans& scans, const PerceptionOptions& options) {
+  return perceive_structure(registered(scans), scans.room, options).observation;
+}
+
+WallFrame wall_frame(const RoomObservation& observation, std::size_t index) {
+  const WallObservation& wall = observation.walls.at(index);
+  const Vec2 along = (wall.b - wall.a).normalized();
+  WallFrame frame;
+  frame.length_m = (wall.b - wall.a).norm();
+  frame.height_m = observation.ceiling_z_m - observation.floor_z_m;
+  frame.room_from_wall.linear().col(0) << along, 0;
+  frame.room_from_wall.linear().col(1) = Vec3::UnitZ();
+  frame.room_from_wall.linear().col(2) << along.y(), -along.x(), 0;
+  frame.room_from_wall.translation() << wall.a, observation.floor_z_m;
+  return frame;
+}
+
+}  // namespace gramap

@@ -1,0 +1,98 @@
+#include "perception/wall_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gramap {
+namespace {
+
+constexpr std::size_t kEvidencePoints = 200000;
+
+/// Vertical planes as lines; those of the same wall merged, weighted by support.
+std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const WallOptions& options) {
+  std::vector<WallLine> lines;
+  for (const PlanePatch& plane : planes) {
+    if (std::abs(plane.normal.z()) > options.vertical_epsilon) continue;
+    const Vec3 centre3 = plane.corner + plane.u * (plane.columns * plane.cell_m / 2) + plane.v * (plane.rows * plane.cell_m / 2);
+    const Vec2 centre = centre3.head<2>();
+    Vec2 normal = plane.normal.head<2>().normalized();
+    const double rho = normal.dot(centre);
+    bool known = false;
+    for (WallLine& line : lines) {
+      const double cosine = normal.dot(line.normal);
+      if (std::abs(cosine) < std::cos(options.merge_angle_rad)) continue;
+      if (std::abs(line.distance(centre)) > options.merge_distance_m) continue;
+      // The stronger plane keeps the direction; a short piece's normal would only spoil it.
+      line.support += plane.support;
+      known = true;
+      break;
+    }
+    if (known) continue;
+    WallLine line;
+    line.normal = normal;
+    line.rho_m = rho;
+    line.rms_m = plane.rms_m;
+    line.band_m = std::max(plane.band_m, 0.03);
+    line.support = plane.support;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey& storey, const WallOptions& options) {
+  const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
+  const Vec2 direction = line.direction();
+  const double low = storey.ceiling_z_m - options.top_band_m, high = storey.ceiling_z_m - 0.04;
+  std::vector<double> places;
+  for (std::size_t i = 0; i < cloud.points_m.size(); i += step) {
+    const Point& p = cloud.points_m[i];
+    if (p.z() < low || p.z() > high) continue;
+    const Vec2 plan(p.x(), p.y());
+    if (std::abs(line.distance(plan)) <= line.band_m) places.push_back(direction.dot(plan));
+  }
+  line.wall.clear();
+  if (places.empty()) return;
+  const auto [first, last] = std::minmax_element(places.begin(), places.end());
+  line.start_m = *first;
+  const auto columns = static_cast<std::size_t>((*last - *first) / line.column_m) + 1;
+  if (columns > 100000) return;
+  std::vector<int> count(columns);
+  for (const double place : places) ++count[static_cast<std::size_t>((place - line.start_m) / line.column_m)];
+  // Other walls and the ceiling's noise cross the band in single columns: a column counts with a neighbour.
+  line.wall.assign(columns, 0);
+  for (std::size_t c = 0; c < columns; ++c) {
+    const bool beside = (c > 0 && count[c - 1] > 0) || (c + 1 < columns && count[c + 1] > 0);
+    line.wall[c] = count[c] >= 2 && beside;
+  }
+  // Gaps of up to half a metre in the points are gaps of the scan, not of the wall.
+  const std::size_t longest_gap = 5;
+  for (std::size_t c = 0, last_wall = columns; c < columns; ++c)
+    if (line.wall[c]) {
+      if (last_wall < c && c - last_wall <= longest_gap + 1)
+        std::fill(line.wall.begin() + static_cast<std::ptrdiff_t>(last_wall), line.wall.begin() + static_cast<std::ptrdiff_t>(c), std::uint8_t{1});
+      last_wall = c;
+    }
+}
+
+}  // namespace
+
+double WallLine::wall_share(double from_m, double to_m) const {
+  const int samples = std::max(1, static_cast<int>((to_m - from_m) / column_m + 0.5));
+  int hits = 0;
+  for (int i = 0; i < samples; ++i) hits += is_wall_at(from_m + (to_m - from_m) * (i + 0.5) / samples);
+  return static_cast<double>(hits) / samples;
+}
+
+std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
+                                 const Storey& storey, const WallOptions& options) {
+  std::vector<WallLine> lines = merged(planes, options);
+  for (WallLine& line : lines) gather_evidence(line, cloud, storey, options);
+  std::erase_if(lines, [&](const WallLine& line) {
+    const auto columns = std::count(line.wall.begin(), line.wall.end(), 1);
+    return static_cast<double>(columns) * line.column_m < options.min_length_m;
+  });
+  std::stable_sort(lines.begin(), lines.end(), [](const WallLine& a, const WallLine& b) { return a.support > b.support; });
+  return lines;
+}
+
+}  // namespace gramap

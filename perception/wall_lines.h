@@ -1,0 +1,52 @@
+// The vertical planes of a room as lines in the plan, and along each what says "wall": that it reaches the ceiling.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "perception/hough.h"
+
+namespace gramap {
+
+/// The room's level planes: heights of floor and ceiling in the cloud's frame.
+struct Storey {
+  double floor_z_m = 0, ceiling_z_m = 0;
+  double floor_sigma_m = 0, ceiling_sigma_m = 0;
+  double height_m() const { return ceiling_z_m - floor_z_m; }
+};
+
+/// All p with normal · p = rho_m in the plan. Along it, `direction` is the normal turned left.
+struct WallLine {
+  Vec2 normal = Vec2::UnitX();
+  double rho_m = 0;
+  double rms_m = 0;
+  double band_m = 0;           ///< points up to this far from the line are the wall's
+  std::size_t support = 0;
+  // Evidence along the line, a value per column of `column_m`, from `start_m` on.
+  double start_m = 0;
+  double column_m = 0.1;
+  std::vector<std::uint8_t> wall;  ///< 1 where the plane was measured right under the ceiling
+
+  Vec2 direction() const { return Vec2(-normal.y(), normal.x()); }
+  double distance(const Vec2& p) const { return normal.dot(p) - rho_m; }
+  bool is_wall_at(double along_m) const {
+    const double column = (along_m - start_m) / column_m;
+    return column >= 0 && column < static_cast<double>(wall.size()) && wall[static_cast<std::size_t>(column)];
+  }
+  /// Share of the stretch [from, to] with columns of wall.
+  double wall_share(double from_m, double to_m) const;
+};
+
+struct WallOptions {
+  double vertical_epsilon = 0.03;   ///< a plane is vertical when |n_z| is below this, level when 1 − |n_z| is
+  double merge_distance_m = 0.08;   ///< parallel planes nearer than this are the same wall
+  double merge_angle_rad = 0.06;
+  double top_band_m = 0.35;         ///< a wall shows up in this band under the ceiling
+  double min_length_m = 0.3;        ///< shorter pieces are no walls
+};
+
+/// Lines of the planes that reach the ceiling, in the order of support.
+std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
+                                 const Storey& storey, const WallOptions& options);
+
+}  // namespace gramap
