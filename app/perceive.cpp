@@ -80,9 +80,9 @@ int run(const Options& options) {
         output /= room.room + ".json";
       }
       write_file(output, to_json(room));
-      std::fprintf(stderr, "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls\n", room.room.c_str(),
-                   room.width.value_m, room.width.sigma_m, room.depth.value_m, room.depth.sigma_m, room.height.value_m,
-                   room.height.sigma_m, room.walls.size());
+      std::fprintf(stderr, "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls\n",
+                   room.room.c_str(), room.width.value_m, room.width.sigma_m, room.depth.value_m,
+                   room.depth.sigma_m, room.height.value_m, room.height.sigma_m, room.walls.size());
       for (const std::string& remark : room.remarks) std::fprintf(stderr, "  %s\n", remark.c_str());
     } catch (const InputError& error) {
       if (!many) throw;
@@ -98,15 +98,23 @@ int run(const Options& options) {
 
 Verb declare_perceive(CLI::App& gramap) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = gramap.add_subcommand("perceive", "Say of each room's scans how large the room is and where its walls are");
-  verb->add_option("folders", options->folders, "Folders of one room's scans each, or a folder of such folders")->required();
-  verb->add_option("-o,--output", options->output,
-                   "The file for one room (- is standard output); for several, the folder for their ROOM.json")
+  CLI::App* verb = gramap.add_subcommand(
+      "perceive", "Say of each room's scans how large the room is and where its walls are");
+  verb->add_option("folders", options->folders,
+                   "Folders of one room's scans each, or a folder of such folders")
+      ->required();
+  verb->add_option(
+          "-o,--output", options->output,
+          "The file for one room (- is standard output); for several, the folder for their ROOM.json")
       ->capture_default_str();
-  verb->add_option("--unit", options->unit, "Length unit of the scans' points; without it metres, and others are refused")
+  verb->add_option("--unit", options->unit,
+                   "Length unit of the scans' points; without it metres, and others are refused")
       ->check(CLI::IsMember({"m", "cm", "mm"}));
-  verb->add_option("--up", options->up, "The scans' axis that points up")->check(CLI::IsMember({"y", "z"}))->capture_default_str();
-  verb->add_option("--seed", options->perception.hough.seed, "Seed of the random triples")->capture_default_str();
+  verb->add_option("--up", options->up, "The scans' axis that points up")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  verb->add_option("--seed", options->perception.hough.seed, "Seed of the random triples")
+      ->capture_default_str();
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
   return [options] { return run(*options); };
 }

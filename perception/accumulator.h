@@ -23,15 +23,20 @@ class BallAccumulator {
   };
 
   BallAccumulator(double angle_cell_rad, double rho_cell_m)
-      : angle_cell_(static_cast<float>(angle_cell_rad)), rho_cell_(static_cast<float>(rho_cell_m)), cells_(kCells) {}
+      : angle_cell_(static_cast<float>(angle_cell_rad)),
+        rho_cell_(static_cast<float>(rho_cell_m)),
+        cells_(kCells) {}
 
   /// Votes for the plane normal · p = rho, rho ≥ 0; the cell that got the vote.
   Cell& vote(const Eigen::Vector3f& normal, float rho) {
     constexpr float pi = std::numbers::pi_v<float>;
-    const auto latitude = static_cast<std::uint64_t>(std::acos(std::clamp(normal.z(), -1.0f, 1.0f)) / angle_cell_ + 0.5f);
-    const float around = std::max(1.0f, std::round(2 * pi * std::sin(static_cast<float>(latitude) * angle_cell_) / angle_cell_));
+    const auto latitude =
+        static_cast<std::uint64_t>(std::acos(std::clamp(normal.z(), -1.0f, 1.0f)) / angle_cell_ + 0.5f);
+    const float around = std::max(
+        1.0f, std::round(2 * pi * std::sin(static_cast<float>(latitude) * angle_cell_) / angle_cell_));
     const float turn = std::atan2(normal.y(), normal.x()) / (2 * pi) + 0.5f;
-    const std::uint64_t longitude = static_cast<std::uint64_t>(turn * around) % static_cast<std::uint64_t>(around);
+    const std::uint64_t longitude =
+        static_cast<std::uint64_t>(turn * around) % static_cast<std::uint64_t>(around);
     const auto distance = static_cast<std::uint64_t>(rho / rho_cell_);
     const std::uint64_t key = 1 + latitude + (longitude << 12) + (distance << 24);
     std::size_t at = (key * 0x9e3779b97f4a7c15u) >> (64 - kBits);

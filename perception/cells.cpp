@@ -7,21 +7,26 @@ namespace {
 
 Vec2 crossing(const PlanLine& a, const PlanLine& b) {
   const double determinant = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
-  return Vec2(a.rho_m * b.normal.y() - b.rho_m * a.normal.y(), a.normal.x() * b.rho_m - b.normal.x() * a.rho_m) / determinant;
+  return Vec2(a.rho_m * b.normal.y() - b.rho_m * a.normal.y(),
+              a.normal.x() * b.rho_m - b.normal.x() * a.rho_m) /
+         determinant;
 }
 
 }  // namespace
 
 PlanCells cut_into_cells(const Vec2& low, const Vec2& high, const std::vector<PlanLine>& lines) {
   // Lines 0 to 3 here are the box.
-  std::vector<PlanLine> all = {{Vec2(0, 1), low.y()}, {Vec2(1, 0), high.x()}, {Vec2(0, 1), high.y()}, {Vec2(1, 0), low.x()}};
+  std::vector<PlanLine> all = {
+      {Vec2(0, 1), low.y()}, {Vec2(1, 0), high.x()}, {Vec2(0, 1), high.y()}, {Vec2(1, 0), low.x()}};
   all.insert(all.end(), lines.begin(), lines.end());
 
   PlanCells result;
   std::map<std::pair<int, int>, int> corner_of;
   const auto corner = [&](int a, int b) {
-    const auto [it, is_new] = corner_of.try_emplace(std::minmax(a, b), static_cast<int>(result.corners.size()));
-    if (is_new) result.corners.push_back(crossing(all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]));
+    const auto [it, is_new] =
+        corner_of.try_emplace(std::minmax(a, b), static_cast<int>(result.corners.size()));
+    if (is_new)
+      result.corners.push_back(crossing(all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]));
     return it->second;
   };
   using Cell = PlanCells::Cell;

@@ -1,7 +1,7 @@
 // The cells that straight lines cut a box in the plan into.
 //
-// Every line runs through the whole box, so every cell is convex and is found by cutting; corners are computed once per
-// pair of lines, so that all cells agree on them.
+// Every line runs through the whole box, so every cell is convex and is found by cutting; corners are
+// computed once per pair of lines, so that all cells agree on them.
 #pragma once
 
 #include <vector>

@@ -52,7 +52,8 @@ FreeSpace free_space(const RegisteredCloud& cloud, const std::vector<WallLine>& 
     const int steps = static_cast<int>(way.norm() / 0.7) + 1;
     for (int s = 0; s < steps; ++s) {
       const Vec2 p = a + way * (static_cast<double>(s) / steps);
-      space.seen[static_cast<std::size_t>(p.y()) * static_cast<std::size_t>(space.columns) + static_cast<std::size_t>(p.x())] = 1;
+      space.seen[static_cast<std::size_t>(p.y()) * static_cast<std::size_t>(space.columns) +
+                 static_cast<std::size_t>(p.x())] = 1;
     }
   }
   return space;

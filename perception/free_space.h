@@ -17,8 +17,8 @@ struct FreeSpace {
   Vec2 centre(int column, int row) const { return corner_m + pixel_m * Vec2(column + 0.5, row + 0.5); }
 };
 
-/// Walks rays from each scanner to its points. A ray ends where it crosses a line at a place that is wall right up to the
-/// ceiling: what is seen through a door, under its lintel, is another room.
+/// Walks rays from each scanner to its points. A ray ends where it crosses a line at a place that is wall
+/// right up to the ceiling: what is seen through a door, under its lintel, is another room.
 FreeSpace free_space(const RegisteredCloud& cloud, const std::vector<WallLine>& lines, const Storey& storey);
 
 }  // namespace gramap

@@ -11,8 +11,10 @@
 namespace gramap {
 namespace {
 
-/// At most `count` points, one at random from each of as many equal stretches of the cloud, relative to `centre`.
-std::vector<Point> sampled(std::span<const Point> points, std::size_t count, const Point& centre, Random& random) {
+/// At most `count` points, one at random from each of as many equal stretches of the cloud, relative to
+/// `centre`.
+std::vector<Point> sampled(std::span<const Point> points, std::size_t count, const Point& centre,
+                           Random& random) {
   std::vector<Point> sample;
   if (points.size() <= count) {
     sample.assign(points.begin(), points.end());
@@ -20,7 +22,7 @@ std::vector<Point> sampled(std::span<const Point> points, std::size_t count, con
     sample.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t begin = i * points.size() / count, end = (i + 1) * points.size() / count;
-      sample.push_back(points[begin + random.below(static_cast<std::uint32_t>(end - begin))]);
+      sample.push_back(points[begin + static_cast<std::size_t>(random.below(static_cast<int>(end - begin)))]);
     }
   }
   for (Point& point : sample) point -= centre;
@@ -43,7 +45,7 @@ std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulat
     return squared >= min_squared && squared <= max_squared;
   };
   for (int trial = 0; trial < options.max_trials; ++trial) {
-    const std::uint32_t first = random.below(static_cast<std::uint32_t>(points.size()));
+    const std::uint32_t first = static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
     const Point& p = points[first];
     const Eigen::Vector3f a = points[near.draw(first, random)] - p;
     if (!in_band(a)) continue;
@@ -68,8 +70,9 @@ std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulat
 }
 
 /// The raster of the points on a plane; keeps the patch with most points and marks those in `inside`.
-void keep_largest_patch(PlanePatch& patch, const std::vector<Point>& points, const std::vector<std::uint32_t>& near,
-                        double cell_m, std::vector<std::uint32_t>& inside) {
+void keep_largest_patch(PlanePatch& patch, const std::vector<Point>& points,
+                        const std::vector<std::uint32_t>& near, double cell_m,
+                        std::vector<std::uint32_t>& inside) {
   patch.u = std::abs(patch.normal.z()) > 0.7 ? Vec3::UnitX() : Vec3::UnitZ().cross(patch.normal);
   patch.u = (patch.u - patch.normal * patch.normal.dot(patch.u)).normalized();
   patch.v = patch.normal.cross(patch.u);
@@ -90,10 +93,12 @@ void keep_largest_patch(PlanePatch& patch, const std::vector<Point>& points, con
   patch.corner = patch.normal * patch.rho_m + patch.u * (static_cast<double>(low.x()) - patch.cell_m) +
                  patch.v * (static_cast<double>(low.y()) - patch.cell_m);
   const auto at = [&](const Eigen::Vector2f& foot) {
-    return static_cast<std::size_t>((foot.y() - low.y()) / cell + 1) * static_cast<std::size_t>(patch.columns) +
+    return static_cast<std::size_t>((foot.y() - low.y()) / cell + 1) *
+               static_cast<std::size_t>(patch.columns) +
            static_cast<std::size_t>((foot.x() - low.x()) / cell + 1);
   };
-  std::vector<std::uint32_t> count(static_cast<std::size_t>(patch.columns) * static_cast<std::size_t>(patch.rows));
+  std::vector<std::uint32_t> count(static_cast<std::size_t>(patch.columns) *
+                                   static_cast<std::size_t>(patch.rows));
   for (const Eigen::Vector2f& foot : feet) ++count[at(foot)];
 
   std::vector<std::uint32_t> label(count.size());
@@ -137,7 +142,8 @@ void keep_largest_patch(PlanePatch& patch, const std::vector<Point>& points, con
 }
 
 /// Indices of the points within `band` of the plane.
-void collect(const std::vector<Point>& points, const FittedPlane& plane, double band, std::vector<std::uint32_t>& near) {
+void collect(const std::vector<Point>& points, const FittedPlane& plane, double band,
+             std::vector<std::uint32_t>& near) {
   const Eigen::Vector3f normal = plane.normal.cast<float>();
   const float rho = static_cast<float>(plane.rho_m), limit = static_cast<float>(band);
   near.clear();
@@ -152,8 +158,8 @@ FittedPlane fit(const std::vector<Point>& points, const std::vector<std::uint32_
 }
 
 /// Three robust standard deviations of the points' distances, from their median.
-double trimmed_band(const std::vector<Point>& points, const std::vector<std::uint32_t>& chosen, const FittedPlane& plane,
-                    double limit) {
+double trimmed_band(const std::vector<Point>& points, const std::vector<std::uint32_t>& chosen,
+                    const FittedPlane& plane, double limit) {
   std::vector<double> distances(chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i)
     distances[i] = std::abs(plane.normal.dot(points[chosen[i]].cast<double>()) - plane.rho_m);
@@ -162,8 +168,10 @@ double trimmed_band(const std::vector<Point>& points, const std::vector<std::uin
   return std::clamp(3 * 1.4826 * *middle, 0.01, limit);
 }
 
-/// Grows a candidate into a plane; nothing when it is too small or does not stand out from the points around it.
-std::optional<PlanePatch> grow(const std::vector<Point>& points, const Candidate& candidate, const HoughOptions& options) {
+/// Grows a candidate into a plane; nothing when it is too small or does not stand out from the points around
+/// it.
+std::optional<PlanePatch> grow(const std::vector<Point>& points, const Candidate& candidate,
+                               const HoughOptions& options) {
   FittedPlane plane{candidate.normal.cast<double>().normalized(), candidate.rho, 0};
   PlanePatch patch;
   std::vector<std::uint32_t> near, inside;
@@ -195,7 +203,8 @@ std::optional<PlanePatch> grow(const std::vector<Point>& points, const Candidate
   return patch;
 }
 
-/// One pass over the whole cloud: every point goes to the nearest plane that has it, and the planes are fitted anew.
+/// One pass over the whole cloud: every point goes to the nearest plane that has it, and the planes are
+/// fitted anew.
 void refit(std::vector<PlanePatch>& patches, std::span<const Point> points, const Point& centre) {
   std::vector<Moments> moments(patches.size());
   std::vector<Eigen::Vector4f> planes;
@@ -223,7 +232,8 @@ void refit(std::vector<PlanePatch>& patches, std::span<const Point> points, cons
     patch.support = static_cast<std::size_t>(moments[i].weight);
     if (patch.support < 3) continue;
     const FittedPlane plane = fit_plane(moments[i]);
-    const bool same = plane.normal.dot(patch.normal) > 0;  // a plane through the origin may come out turned round
+    const bool same =
+        plane.normal.dot(patch.normal) > 0;  // a plane through the origin may come out turned round
     patch.normal = same ? plane.normal : -plane.normal;
     patch.rho_m = same ? plane.rho_m : -plane.rho_m;
     patch.rms_m = plane.rms_m;
@@ -236,20 +246,22 @@ bool PlanePatch::covers(const Vec3& point) const {
   const Vec3 offset = point - corner;
   const double x = u.dot(offset) / cell_m, y = v.dot(offset) / cell_m;
   if (!(x >= 0 && y >= 0 && x < columns && y < rows)) return false;
-  return occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] != 0;
+  return occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(x)] != 0;
 }
 
 std::vector<PlanePatch> detect_planes(std::span<const Point> points, const HoughOptions& options) {
   std::vector<PlanePatch> patches;
   if (points.size() < static_cast<std::size_t>(options.min_support)) return patches;
-  Random random{options.seed};
+  Random random(options.seed);
   Vec3 sum = Vec3::Zero();
   const std::size_t step = std::max<std::size_t>(1, points.size() / 4096);
   std::size_t counted = 0;
   for (std::size_t i = 0; i < points.size(); i += step, ++counted) sum += points[i].cast<double>();
   const Point centre = (sum / static_cast<double>(counted)).cast<float>();
 
-  Neighbourhood near(sampled(points, static_cast<std::size_t>(options.sample), centre, random), options.max_pair_m / 2);
+  Neighbourhood near(sampled(points, static_cast<std::size_t>(options.sample), centre, random),
+                     options.max_pair_m / 2);
   BallAccumulator votes(options.angle_cell_rad, options.rho_cell_m);
   std::vector<std::uint8_t> taken;
   while (static_cast<int>(patches.size()) < options.max_planes &&

@@ -27,18 +27,21 @@ struct Stretch {
 
 }  // namespace
 
-std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLine>& lines, const RegisteredCloud& cloud,
-                                        const Storey& storey) {
+std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLine>& lines,
+                                        const RegisteredCloud& cloud, const Storey& storey) {
   const std::size_t edges = outline.ring.size();
   std::vector<std::vector<Stretch>> stretches(lines.size());
   for (std::size_t i = 0; i < edges; ++i) {
     const WallLine& line = lines[static_cast<std::size_t>(outline.lines[i])];
-    const double a = line.direction().dot(outline.ring[i]), b = line.direction().dot(outline.ring[(i + 1) % edges]);
+    const double a = line.direction().dot(outline.ring[i]),
+                 b = line.direction().dot(outline.ring[(i + 1) % edges]);
     const double shrink = std::min(0.05, std::abs(a - b) / 4);  // corners hold points of both walls
-    stretches[static_cast<std::size_t>(outline.lines[i])].push_back({std::min(a, b) + shrink, std::max(a, b) - shrink});
+    stretches[static_cast<std::size_t>(outline.lines[i])].push_back(
+        {std::min(a, b) + shrink, std::max(a, b) - shrink});
   }
   std::vector<MeasuredWall> measured(lines.size());
-  const float low = static_cast<float>(storey.floor_z_m + 0.05), high = static_cast<float>(storey.ceiling_z_m - 0.05);
+  const float low = static_cast<float>(storey.floor_z_m + 0.05),
+              high = static_cast<float>(storey.ceiling_z_m - 0.05);
   for (std::size_t l = 0; l < lines.size(); ++l) {
     if (stretches[l].empty()) continue;
     WallLine& line = lines[l];
@@ -46,7 +49,8 @@ std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLi
     for (int round = 0; round < 3; ++round) {
       const Vec2 direction = line.direction();
       double middle = 0;
-      for (const Stretch& s : stretches[l]) middle += (s.from + s.to) / 2 / static_cast<double>(stretches[l].size());
+      for (const Stretch& s : stretches[l])
+        middle += (s.from + s.to) / 2 / static_cast<double>(stretches[l].size());
       std::vector<LineSums> of_scan(cloud.parts.size());
       LineSums all;
       for (std::size_t part = 0; part < cloud.parts.size(); ++part)
@@ -70,9 +74,11 @@ std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLi
         slope = 0;
         offset = all.y / all.n;
       }
-      const double variance = std::max(0.0, all.yy / all.n - 2 * offset * all.y / all.n - 2 * slope * all.xy / all.n + offset * offset +
-                                                2 * offset * slope * all.x / all.n + slope * slope * all.xx / all.n);
-      // How far the scans disagree about the wall says how well it is known; points alone would be far too sure.
+      const double variance = std::max(
+          0.0, all.yy / all.n - 2 * offset * all.y / all.n - 2 * slope * all.xy / all.n + offset * offset +
+                   2 * offset * slope * all.x / all.n + slope * slope * all.xx / all.n);
+      // How far the scans disagree about the wall says how well it is known; points alone would be far too
+      // sure.
       double spread = 0, scans = 0;
       for (const LineSums& sums : of_scan)
         if (sums.n >= 10) {

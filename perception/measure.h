@@ -1,8 +1,9 @@
-// The outline's walls measured anew on all their points, and the room's width, depth and height with their deviations.
+// The outline's walls measured anew on all their points, and the room's width, depth and height with their
+// deviations.
 #pragma once
 
-#include "perception/outline.h"
 #include "perception/observation.h"
+#include "perception/outline.h"
 
 namespace gramap {
 
@@ -12,8 +13,8 @@ struct MeasuredWall {
   double rms_m = 0;
   int support = 0;
 };
-std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLine>& lines, const RegisteredCloud& cloud,
-                                        const Storey& storey);
+std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLine>& lines,
+                                        const RegisteredCloud& cloud, const Storey& storey);
 
 /// Fills width, depth and axis of an observation whose outline and walls are known.
 void measure_extent(RoomObservation& observation);

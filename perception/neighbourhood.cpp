@@ -11,7 +11,8 @@ constexpr std::uint64_t kAxisBits = 21, kAxisMask = (std::uint64_t{1} << kAxisBi
 
 std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return (static_cast<std::uint64_t>(x) & kAxisMask) << (2 * kAxisBits) |
-         (static_cast<std::uint64_t>(y) & kAxisMask) << kAxisBits | (static_cast<std::uint64_t>(z) & kAxisMask);
+         (static_cast<std::uint64_t>(y) & kAxisMask) << kAxisBits |
+         (static_cast<std::uint64_t>(z) & kAxisMask);
 }
 
 }  // namespace
@@ -19,7 +20,9 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 Neighbourhood::Neighbourhood(std::vector<Point> points, double edge_m) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   order.reserve(points.size());
-  const auto index = [&](float coordinate) { return static_cast<std::int64_t>(std::floor(coordinate / edge_m)); };
+  const auto index = [&](float coordinate) {
+    return static_cast<std::int64_t>(std::floor(coordinate / edge_m));
+  };
   for (std::uint32_t i = 0; i < points.size(); ++i)
     order.emplace_back(key_of(index(points[i].x()), index(points[i].y()), index(points[i].z())), i);
   std::sort(order.begin(), order.end());
@@ -39,12 +42,14 @@ Neighbourhood::Neighbourhood(std::vector<Point> points, double edge_m) {
   for (std::uint32_t i = 0; i < keys.size(); ++i) at.emplace(keys[i], i);
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
     voxels_[i].first_neighbour = static_cast<std::uint32_t>(neighbours_.size());
-    const std::uint64_t x = keys[i] >> (2 * kAxisBits), y = (keys[i] >> kAxisBits) & kAxisMask, z = keys[i] & kAxisMask;
+    const std::uint64_t x = keys[i] >> (2 * kAxisBits), y = (keys[i] >> kAxisBits) & kAxisMask,
+                        z = keys[i] & kAxisMask;
     for (int dx = -1; dx <= 1; ++dx)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dz = -1; dz <= 1; ++dz) {
-          const auto found = at.find(key_of(static_cast<std::int64_t>(x) + dx, static_cast<std::int64_t>(y) + dy,
-                                            static_cast<std::int64_t>(z) + dz));
+          const auto found =
+              at.find(key_of(static_cast<std::int64_t>(x) + dx, static_cast<std::int64_t>(y) + dy,
+                             static_cast<std::int64_t>(z) + dz));
           if (found != at.end()) neighbours_.push_back(found->second);
         }
     voxels_[i].neighbour_count = static_cast<std::uint32_t>(neighbours_.size()) - voxels_[i].first_neighbour;
@@ -64,7 +69,7 @@ void Neighbourhood::count_around() {
 
 std::uint32_t Neighbourhood::draw(std::uint32_t i, Random& random) const {
   const Voxel& voxel = voxels_[voxel_of_[i]];
-  std::uint32_t skip = random.below(voxel.around);
+  auto skip = static_cast<std::uint32_t>(random.below(static_cast<int>(voxel.around)));
   for (std::uint32_t n = 0;; ++n) {
     const Voxel& neighbour = voxels_[neighbours_[voxel.first_neighbour + n]];
     const std::uint32_t count = neighbour.end - neighbour.begin;

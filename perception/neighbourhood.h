@@ -9,7 +9,8 @@
 
 namespace gramap {
 
-/// Keeps its points ordered by cubic voxel. A point's neighbours are those of its own voxel and the 26 around it.
+/// Keeps its points ordered by cubic voxel. A point's neighbours are those of its own voxel and the 26 around
+/// it.
 class Neighbourhood {
  public:
   Neighbourhood(std::vector<Point> points, double edge_m);

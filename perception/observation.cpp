@@ -35,10 +35,12 @@ Json ring(const Polygon& polygon) {
 /// Looks members up and says which one is missing or wrong.
 class Reader {
  public:
-  Reader(const Json& json, std::string path, const std::string& file) : json_(json), path_(std::move(path)), file_(file) {}
+  Reader(const Json& json, std::string path, const std::string& file)
+      : json_(json), path_(std::move(path)), file_(file) {}
 
   [[noreturn]] void fail(const std::string& expected) const {
-    throw InputError({file_}, "expected " + expected + " at '" + path_ + "'", "write the file with gramap perceive");
+    throw InputError({file_}, "expected " + expected + " at '" + path_ + "'",
+                     "write the file with gramap perceive");
   }
   Reader member(const char* key) const {
     if (!json_.is_object()) fail("an object");
@@ -49,7 +51,8 @@ class Reader {
   std::vector<Reader> items() const {
     if (!json_.is_array()) fail("a list");
     std::vector<Reader> list;
-    for (std::size_t i = 0; i < json_.size(); ++i) list.emplace_back(json_[i], path_ + "/" + std::to_string(i), file_);
+    for (std::size_t i = 0; i < json_.size(); ++i)
+      list.emplace_back(json_[i], path_ + "/" + std::to_string(i), file_);
     return list;
   }
   double number() const {
@@ -147,15 +150,17 @@ RoomObservation observation_from_json(const std::string& text, const std::filesy
   }
   const Reader all(json, "", file);
   if (all.member("gramap").text() != "room observation 1")
-    throw InputError({file}, "this is no room observation of this version", "write the file with gramap perceive");
+    throw InputError({file}, "this is no room observation of this version",
+                     "write the file with gramap perceive");
   RoomObservation room;
   room.room = all.member("room").text();
   room.outline = all.member("outline").polygon();
   for (const Reader& item : all.member("walls").items())
-    room.walls.push_back({item.member("a").vector<2>(), item.member("b").vector<2>(), item.member("sigma_m").number(),
-                          item.member("seen_share").number(), item.member("plane_rms_m").number(),
-                          item.member("support").integer()});
-  if (room.walls.size() != room.outline.size()) all.member("walls").fail("as many walls as the outline has corners");
+    room.walls.push_back({item.member("a").vector<2>(), item.member("b").vector<2>(),
+                          item.member("sigma_m").number(), item.member("seen_share").number(),
+                          item.member("plane_rms_m").number(), item.member("support").integer()});
+  if (room.walls.size() != room.outline.size())
+    all.member("walls").fail("as many walls as the outline has corners");
   room.floor_z_m = all.member("floor_z_m").number();
   room.ceiling_z_m = all.member("ceiling_z_m").number();
   room.height = all.member("height").measured();
@@ -163,9 +168,10 @@ RoomObservation observation_from_json(const std::string& text, const std::filesy
   room.depth = all.member("depth").measured();
   room.axis = all.member("axis").vector<2>();
   for (const Reader& item : all.member("openings").items()) {
-    room.openings.push_back({item.member("kind").text(), item.member("wall").integer(), item.member("start_m").number(),
-                             item.member("width_m").number(), item.member("sill_m").number(),
-                             item.member("head_m").number(), item.member("confidence").number()});
+    room.openings.push_back({item.member("kind").text(), item.member("wall").integer(),
+                             item.member("start_m").number(), item.member("width_m").number(),
+                             item.member("sill_m").number(), item.member("head_m").number(),
+                             item.member("confidence").number()});
     if (room.openings.back().wall < 0 || room.openings.back().wall >= static_cast<int>(room.walls.size()))
       item.member("wall").fail("the number of a wall");
   }
@@ -173,7 +179,8 @@ RoomObservation observation_from_json(const std::string& text, const std::filesy
     room.furniture.push_back({item.member("type").text(), item.member("footprint").polygon(),
                               item.member("bottom_m").number(), item.member("top_m").number(),
                               item.member("confidence").number()});
-  for (const Reader& item : all.member("scanner_positions").items()) room.scanner_positions.push_back(item.vector<3>());
+  for (const Reader& item : all.member("scanner_positions").items())
+    room.scanner_positions.push_back(item.vector<3>());
   room.points = all.member("points").count();
   for (const Reader& item : all.member("remarks").items()) room.remarks.push_back(item.text());
   return room;

@@ -26,7 +26,8 @@ Polygon ring_of(const PlanCells& cells, const PlanCells::Cell& cell) {
 }
 
 /// Area and seen share of every cell, by the pixels whose centres lie in it.
-std::vector<CellEvidence> look_into(const PlanCells& cells, const FreeSpace& space, const RegisteredCloud& cloud) {
+std::vector<CellEvidence> look_into(const PlanCells& cells, const FreeSpace& space,
+                                    const RegisteredCloud& cloud) {
   std::vector<CellEvidence> evidence;
   for (const PlanCells::Cell& cell : cells.cells) {
     const Polygon ring = ring_of(cells, cell);
@@ -41,15 +42,18 @@ std::vector<CellEvidence> look_into(const PlanCells& cells, const FreeSpace& spa
       return std::clamp(static_cast<int>((coordinate - origin) / space.pixel_m), 0, count - 1);
     };
     int pixels = 0, seen = 0;
-    for (int row = index(low.y(), space.corner_m.y(), space.rows); row <= index(high.y(), space.corner_m.y(), space.rows); ++row)
+    for (int row = index(low.y(), space.corner_m.y(), space.rows);
+         row <= index(high.y(), space.corner_m.y(), space.rows); ++row)
       for (int column = index(low.x(), space.corner_m.x(), space.columns);
            column <= index(high.x(), space.corner_m.x(), space.columns); ++column) {
         if (!contains(ring, space.centre(column, row))) continue;
         ++pixels;
-        seen += space.seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(space.columns) + static_cast<std::size_t>(column)];
+        seen += space.seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(space.columns) +
+                           static_cast<std::size_t>(column)];
       }
     found.seen_share = pixels ? static_cast<double>(seen) / pixels : 0;
-    for (const RegisteredCloud::Part& part : cloud.parts) found.has_scanner |= contains(ring, part.scanner_m.head<2>());
+    for (const RegisteredCloud::Part& part : cloud.parts)
+      found.has_scanner |= contains(ring, part.scanner_m.head<2>());
     evidence.push_back(found);
   }
   return evidence;
@@ -62,8 +66,8 @@ double wall_share_of(const WallLine& line, const Vec2& a, const Vec2& b) {
 }
 
 /// The cells that are room: the side of the source of the minimum cut.
-std::vector<bool> label(const PlanCells& cells, const std::vector<CellEvidence>& evidence, const std::vector<WallLine>& lines,
-                        const OutlineOptions& options) {
+std::vector<bool> label(const PlanCells& cells, const std::vector<CellEvidence>& evidence,
+                        const std::vector<WallLine>& lines, const OutlineOptions& options) {
   const std::size_t count = cells.cells.size(), source = count, sink = count + 1;
   MinCut graph(count + 2);
   for (std::size_t c = 0; c < count; ++c) {
@@ -91,7 +95,8 @@ std::vector<bool> label(const PlanCells& cells, const std::vector<CellEvidence>&
 }
 
 /// Keeps the room's part that holds most scanners.
-void keep_scanned_part(const PlanCells& cells, const std::vector<CellEvidence>& evidence, std::vector<bool>& room) {
+void keep_scanned_part(const PlanCells& cells, const std::vector<CellEvidence>& evidence,
+                       std::vector<bool>& room) {
   std::vector<int> part(room.size(), -1);
   std::vector<double> score;
   for (std::size_t start = 0; start < room.size(); ++start) {
@@ -124,8 +129,8 @@ Vec2 crossing_of(const WallLine& a, const WallLine& b) {
   return normals.partialPivLu().solve(Vec2(a.rho_m, b.rho_m));
 }
 
-RoomOutline room_outline(const std::vector<WallLine>& lines, const FreeSpace& space, const RegisteredCloud& cloud,
-                         const OutlineOptions& options) {
+RoomOutline room_outline(const std::vector<WallLine>& lines, const FreeSpace& space,
+                         const RegisteredCloud& cloud, const OutlineOptions& options) {
   RoomOutline outline;
   if (lines.size() < 3 || space.columns == 0) return outline;
   std::vector<PlanLine> cuts;
@@ -172,11 +177,13 @@ RoomOutline room_outline(const std::vector<WallLine>& lines, const FreeSpace& sp
     rings.push_back(ring);
   }
   if (rings.empty()) return outline;
-  const Ring& outer = *std::max_element(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.area_m2 < b.area_m2; });
+  const Ring& outer = *std::max_element(rings.begin(), rings.end(),
+                                        [](const Ring& a, const Ring& b) { return a.area_m2 < b.area_m2; });
   for (const Ring& ring : rings)
     if (ring.area_m2 < -0.02) {
       char text[100];
-      std::snprintf(text, sizeof text, "a column of %.2f m² stands free in the room; the outline leaves it out", -ring.area_m2);
+      std::snprintf(text, sizeof text,
+                    "a column of %.2f m² stands free in the room; the outline leaves it out", -ring.area_m2);
       outline.remarks.push_back(text);
     }
   const std::size_t n = outer.corners.size();
@@ -187,8 +194,8 @@ RoomOutline room_outline(const std::vector<WallLine>& lines, const FreeSpace& sp
     outline.ring.push_back(cells.corners[static_cast<std::size_t>(outer.corners[i])]);
   }
   for (std::size_t i = 0; i < outline.ring.size(); ++i)
-    outline.wall_share.push_back(wall_share_of(lines[static_cast<std::size_t>(outline.lines[i])], outline.ring[i],
-                                               outline.ring[(i + 1) % outline.ring.size()]));
+    outline.wall_share.push_back(wall_share_of(lines[static_cast<std::size_t>(outline.lines[i])],
+                                               outline.ring[i], outline.ring[(i + 1) % outline.ring.size()]));
   return outline;
 }
 

@@ -1,8 +1,9 @@
 // The room's outline: which cells between the wall lines are the room, and the ring around them.
 //
-// Each cell between the lines is room or not. It should be room if the scanners saw into it, and its border should run
-// along walls that were measured; both wishes are summed up and the best labelling is a minimum cut (as in Mura et al.,
-// Automatic room detection and reconstruction in cluttered indoor environments, Computers & Graphics 44, 2014).
+// Each cell between the lines is room or not. It should be room if the scanners saw into it, and its border
+// should run along walls that were measured; both wishes are summed up and the best labelling is a minimum
+// cut (as in Mura et al., Automatic room detection and reconstruction in cluttered indoor environments,
+// Computers & Graphics 44, 2014).
 #pragma once
 
 #include <string>
@@ -13,12 +14,13 @@
 namespace gramap {
 
 struct OutlineOptions {
-  double border_cost_m = 0.4;  ///< what a metre of border without a wall costs, in m² of cells wrongly labelled
+  double border_cost_m =
+      0.4;  ///< what a metre of border without a wall costs, in m² of cells wrongly labelled
 };
 
 struct RoomOutline {
-  std::vector<int> lines;  ///< of the edges in counter-clockwise order, into the wall lines
-  Polygon ring;            ///< corner i is where edge i begins
+  std::vector<int> lines;          ///< of the edges in counter-clockwise order, into the wall lines
+  Polygon ring;                    ///< corner i is where edge i begins
   std::vector<double> wall_share;  ///< of each edge's length
   std::vector<std::string> remarks;
 };

@@ -29,7 +29,8 @@ class Stages {
 
 }  // namespace
 
-Perception perceive_structure(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options) {
+Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
+                              const PerceptionOptions& options) {
   Perception found;
   found.cloud = std::move(cloud);
   Stages stages(options);
@@ -44,17 +45,21 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room, co
   stages.end("outline");
   if (found.outline.ring.size() < 3) {
     char text[200];
-    std::snprintf(text, sizeof text, "no room was found around the scanners: %zu planes, %zu of them walls that reach the ceiling",
-                  found.planes.size(), found.walls.size());
+    std::snprintf(
+        text, sizeof text,
+        "no room was found around the scanners: %zu planes, %zu of them walls that reach the ceiling",
+        found.planes.size(), found.walls.size());
     throw InputError({room}, text, "scan every wall of the room, up to the ceiling");
   }
-  const std::vector<MeasuredWall> measured = measure_walls(found.outline, found.walls, found.cloud, found.storey);
+  const std::vector<MeasuredWall> measured =
+      measure_walls(found.outline, found.walls, found.cloud, found.storey);
 
   RoomObservation& seen = found.observation;
   const Vec3& origin = found.cloud.origin_m;
   seen.room = room;
   seen.points = found.cloud.points_m.size();
-  for (const RegisteredCloud::Part& part : found.cloud.parts) seen.scanner_positions.push_back(part.scanner_m + origin);
+  for (const RegisteredCloud::Part& part : found.cloud.parts)
+    seen.scanner_positions.push_back(part.scanner_m + origin);
   for (const Vec2& corner : found.outline.ring) seen.outline.push_back(corner + origin.head<2>());
   for (std::size_t i = 0; i < seen.outline.size(); ++i) {
     WallObservation wall;
@@ -68,7 +73,8 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room, co
   }
   seen.floor_z_m = found.storey.floor_z_m + origin.z();
   seen.ceiling_z_m = found.storey.ceiling_z_m + origin.z();
-  seen.height = {found.storey.height_m(), std::hypot(found.storey.floor_sigma_m, found.storey.ceiling_sigma_m)};
+  seen.height = {found.storey.height_m(),
+                 std::hypot(found.storey.floor_sigma_m, found.storey.ceiling_sigma_m)};
   measure_extent(seen);
   seen.remarks = found.outline.remarks;
   stages.end("measures");

@@ -30,14 +30,16 @@ struct Perception {
   RoomObservation observation;  ///< in the poses' frame
 };
 
-/// Planes, floor and ceiling, walls, outline and measures of the room; openings and furniture are found afterwards from
-/// these. Throws InputError when the scans hold no room, saying what was found.
-Perception perceive_structure(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options = {});
+/// Planes, floor and ceiling, walls, outline and measures of the room; openings and furniture are found
+/// afterwards from these. Throws InputError when the scans hold no room, saying what was found.
+Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
+                              const PerceptionOptions& options = {});
 
 /// The whole of perception.
 RoomObservation perceive_room(const RoomScans& scans, const PerceptionOptions& options = {});
 
-/// The frame of a perceived wall: origin at corner `a` on the floor, x along the wall to `b`, y up, z into the room.
+/// The frame of a perceived wall: origin at corner `a` on the floor, x along the wall to `b`, y up, z into
+/// the room.
 struct WallFrame {
   Eigen::Isometry3d room_from_wall = Eigen::Isometry3d::Identity();
   double length_m = 0, height_m = 0;

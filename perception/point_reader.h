@@ -1,5 +1,6 @@
-// Readers of single point files, one function a format. All of them give points in the file's own units and axes, take
-// every column after the coordinates as something they need not know, and refuse what is not a finite number.
+// Readers of single point files, one function a format. All of them give points in the file's own units and
+// axes, take every column after the coordinates as something they need not know, and refuse what is not a
+// finite number.
 #pragma once
 
 #include <filesystem>
@@ -26,12 +27,12 @@ class ByteSource {
   void* handle_ = nullptr;
 };
 
-/// Text, a point a line: three numbers separated by blanks, tabs, commas or semicolons, then anything. Empty lines and
-/// lines that begin with '#' or "//" are skipped.
+/// Text, a point a line: three numbers separated by blanks, tabs, commas or semicolons, then anything. Empty
+/// lines and lines that begin with '#' or "//" are skipped.
 std::vector<Point> read_xyz(const std::filesystem::path& path);
 
-/// Reads one number at `at` and moves `at` behind it; nothing when there is none. Decimal, as every program writes them;
-/// "nan" and "inf" are read as such, so that the caller can name them.
+/// Reads one number at `at` and moves `at` behind it; nothing when there is none. Decimal, as every program
+/// writes them; "nan" and "inf" are read as such, so that the caller can name them.
 bool parse_number(const char*& at, const char* end, double& value);
 
 }  // namespace gramap

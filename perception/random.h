@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 // Random numbers that are the same on every machine: an explicit generator with its own distributions (the
 // standard library's differ from one implementation to the next).
 #pragma once
@@ -47,29 +46,4 @@ inline std::uint64_t seed_for(std::uint64_t seed, std::string_view name) {
   return Random(hash).next();
 }
 
-=======
-// A small generator with an explicit seed, the same numbers on every machine (the library's distributions are not).
-#pragma once
-
-#include <cstdint>
-
-namespace gramap {
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random {
-  std::uint64_t state = 1;
-
-  std::uint64_t next() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  /// A whole number below `count`, which must be below 2³².
-  std::uint32_t below(std::uint32_t count) {
-    return static_cast<std::uint32_t>(((next() >> 32) * count) >> 32);
-  }
-};
-
->>>>>>> 4be495f (Read room scans, find planes by the randomized Hough transform, and measure the room around the scanners)
 }  // namespace gramap

@@ -29,18 +29,20 @@ double median_range(const std::vector<Point>& points) {
   std::vector<float> ranges;
   const std::size_t step = std::max<std::size_t>(1, points.size() / 10000);
   for (std::size_t i = 0; i < points.size(); i += step) ranges.push_back(points[i].norm());
-  std::nth_element(ranges.begin(), ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2), ranges.end());
+  std::nth_element(ranges.begin(), ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2),
+                   ranges.end());
   return ranges[ranges.size() / 2];
 }
 
-/// Refuses a cloud that is not in metres: half of a room's points lie within 80 m of its scanner, and no room is so small
-/// that, measured in centimetres, it would.
+/// Refuses a cloud that is not in metres: half of a room's points lie within 80 m of its scanner, and no room
+/// is so small that, measured in centimetres, it would.
 void check_unit(const Scan& scan) {
   const double range = median_range(scan.points_m);
   if (range < 80) return;
   const bool millimetres = range > 800;
   char text[160];
-  std::snprintf(text, sizeof text, "half of the points are more than %.0f m from the scanner: this looks like %s", range,
+  std::snprintf(text, sizeof text,
+                "half of the points are more than %.0f m from the scanner: this looks like %s", range,
                 millimetres ? "millimetres" : "centimetres");
   throw InputError({scan.file.string()}, text,
                    std::string("convert the scan to metres, or say --unit ") + (millimetres ? "mm" : "cm"));
@@ -82,7 +84,8 @@ Eigen::Isometry3d pose_from_text(std::string_view text, const fs::path& name) {
     ++count;
   }
   if (count != 6)
-    throw InputError({name.string(), line}, "expected six numbers in the pose, found " + std::to_string(count),
+    throw InputError({name.string(), line},
+                     "expected six numbers in the pose, found " + std::to_string(count),
                      "a pose is x y z in centimetres, then three angles in degrees");
   const auto turn = [&](int i, const Vec3& axis) {
     return Eigen::AngleAxisd(numbers[i] * std::numbers::pi / 180, axis).toRotationMatrix();
@@ -102,8 +105,8 @@ std::string pose_to_text(const Eigen::Isometry3d& room_from_scanner) {
   const double x = std::atan2(-r(1, 2), r(2, 2)), z = std::atan2(-r(0, 1), r(0, 0));
   const double degrees = 180 / std::numbers::pi;
   char text[200];
-  std::snprintf(text, sizeof text, "%.4f %.4f %.4f\n%.6f %.6f %.6f\n", t.x(), t.y(), t.z(), x * degrees, y * degrees,
-                z * degrees);
+  std::snprintf(text, sizeof text, "%.4f %.4f %.4f\n%.6f %.6f %.6f\n", t.x(), t.y(), t.z(), x * degrees,
+                y * degrees, z * degrees);
   return text;
 }
 
@@ -124,7 +127,8 @@ RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
 
   RoomScans room;
   const fs::path named = folder.has_filename() ? folder : folder.parent_path();
-  room.room = fs::is_regular_file(named, error) ? named.stem().string() : fs::absolute(named).lexically_normal().filename().string();
+  room.room = fs::is_regular_file(named, error) ? named.stem().string()
+                                                : fs::absolute(named).lexically_normal().filename().string();
   room.scans.resize(files.size());
   std::vector<std::exception_ptr> faults(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
@@ -153,7 +157,8 @@ RegisteredCloud registered(const RoomScans& scans) {
     Eigen::Isometry3d pose = scan.room_from_scanner;
     pose.translation() -= cloud.origin_m;
     const Eigen::Isometry3f transform = pose.cast<float>();
-    for (std::size_t i = 0; i < scan.points_m.size(); ++i) cloud.points_m[begin + i] = transform * scan.points_m[i];
+    for (std::size_t i = 0; i < scan.points_m.size(); ++i)
+      cloud.points_m[begin + i] = transform * scan.points_m[i];
     cloud.parts.push_back({pose.translation(), begin, begin + scan.points_m.size()});
     begin += scan.points_m.size();
   }

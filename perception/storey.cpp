@@ -16,8 +16,8 @@ struct Level {
 
 }  // namespace
 
-Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud, const std::string& room,
-                   const WallOptions& options) {
+Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
+                   const std::string& room, const WallOptions& options) {
   Vec2 middle = Vec2::Zero();
   double lowest = 1e300, highest = -1e300;
   for (const RegisteredCloud::Part& part : cloud.parts) {
@@ -34,9 +34,10 @@ Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud&
   }
   const auto fail = [&](const char* what, std::size_t candidates) {
     char text[200];
-    std::snprintf(text, sizeof text, "no %s was found: of %zu planes, %zu lie level %s the scanners", what, planes.size(),
-                  candidates, *what == 'f' ? "under" : "above");
-    throw InputError({room}, text, "scan the room's floor and ceiling too; if the scan's up is y, say --up y");
+    std::snprintf(text, sizeof text, "no %s was found: of %zu planes, %zu lie level %s the scanners", what,
+                  planes.size(), candidates, *what == 'f' ? "under" : "above");
+    throw InputError({room}, text,
+                     "scan the room's floor and ceiling too; if the scan's up is y, say --up y");
   };
   const auto outermost = [](const std::vector<Level>& levels, double sign) {
     const auto area = [](const Level& a, const Level& b) { return a.area_m2 < b.area_m2; };

@@ -5,10 +5,10 @@
 
 namespace gramap {
 
-/// The floor lies under the scanners, the ceiling above them. Of the level planes there, the outermost one that is not
-/// small beside the largest: table tops, lamps and what is seen through doors are small. Throws InputError when there is
-/// none, saying what was found.
-Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud, const std::string& room,
-                   const WallOptions& options);
+/// The floor lies under the scanners, the ceiling above them. Of the level planes there, the outermost one
+/// that is not small beside the largest: table tops, lamps and what is seen through doors are small. Throws
+/// InputError when there is none, saying what was found.
+Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
+                   const std::string& room, const WallOptions& options);
 
 }  // namespace gramap

@@ -13,7 +13,8 @@ std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const WallOp
   std::vector<WallLine> lines;
   for (const PlanePatch& plane : planes) {
     if (std::abs(plane.normal.z()) > options.vertical_epsilon) continue;
-    const Vec3 centre3 = plane.corner + plane.u * (plane.columns * plane.cell_m / 2) + plane.v * (plane.rows * plane.cell_m / 2);
+    const Vec3 centre3 = plane.corner + plane.u * (plane.columns * plane.cell_m / 2) +
+                         plane.v * (plane.rows * plane.cell_m / 2);
     const Vec2 centre = centre3.head<2>();
     Vec2 normal = plane.normal.head<2>().normalized();
     const double rho = normal.dot(centre);
@@ -39,7 +40,8 @@ std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const WallOp
   return lines;
 }
 
-void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey& storey, const WallOptions& options) {
+void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey& storey,
+                     const WallOptions& options) {
   const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
   const Vec2 direction = line.direction();
   const double low = storey.ceiling_z_m - options.top_band_m, high = storey.ceiling_z_m - 0.04;
@@ -69,7 +71,8 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey&
   for (std::size_t c = 0, last_wall = columns; c < columns; ++c)
     if (line.wall[c]) {
       if (last_wall < c && c - last_wall <= longest_gap + 1)
-        std::fill(line.wall.begin() + static_cast<std::ptrdiff_t>(last_wall), line.wall.begin() + static_cast<std::ptrdiff_t>(c), std::uint8_t{1});
+        std::fill(line.wall.begin() + static_cast<std::ptrdiff_t>(last_wall),
+                  line.wall.begin() + static_cast<std::ptrdiff_t>(c), std::uint8_t{1});
       last_wall = c;
     }
 }
@@ -91,7 +94,8 @@ std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const Re
     const auto columns = std::count(line.wall.begin(), line.wall.end(), 1);
     return static_cast<double>(columns) * line.column_m < options.min_length_m;
   });
-  std::stable_sort(lines.begin(), lines.end(), [](const WallLine& a, const WallLine& b) { return a.support > b.support; });
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const WallLine& a, const WallLine& b) { return a.support > b.support; });
   return lines;
 }
 

@@ -1,4 +1,5 @@
-// The vertical planes of a room as lines in the plan, and along each what says "wall": that it reaches the ceiling.
+// The vertical planes of a room as lines in the plan, and along each what says "wall": that it reaches the
+// ceiling.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct WallLine {
   Vec2 normal = Vec2::UnitX();
   double rho_m = 0;
   double rms_m = 0;
-  double band_m = 0;           ///< points up to this far from the line are the wall's
+  double band_m = 0;  ///< points up to this far from the line are the wall's
   std::size_t support = 0;
   // Evidence along the line, a value per column of `column_m`, from `start_m` on.
   double start_m = 0;
@@ -38,11 +39,11 @@ struct WallLine {
 };
 
 struct WallOptions {
-  double vertical_epsilon = 0.03;   ///< a plane is vertical when |n_z| is below this, level when 1 − |n_z| is
-  double merge_distance_m = 0.08;   ///< parallel planes nearer than this are the same wall
+  double vertical_epsilon = 0.03;  ///< a plane is vertical when |n_z| is below this, level when 1 − |n_z| is
+  double merge_distance_m = 0.08;  ///< parallel planes nearer than this are the same wall
   double merge_angle_rad = 0.06;
-  double top_band_m = 0.35;         ///< a wall shows up in this band under the ceiling
-  double min_length_m = 0.3;        ///< shorter pieces are no walls
+  double top_band_m = 0.35;   ///< a wall shows up in this band under the ceiling
+  double min_length_m = 0.3;  ///< shorter pieces are no walls
 };
 
 /// Lines of the planes that reach the ceiling, in the order of support.

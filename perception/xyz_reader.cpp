@@ -44,19 +44,22 @@ bool parse_line(const char* at, const char* end, Point& point, const std::filesy
 }  // namespace
 
 bool parse_number(const char*& at, const char* end, double& value) {
-  // Up to 15 digits and a small power of ten: both are exact doubles, so one division rounds correctly. Everything else
-  // is left to the library.
-  static constexpr double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  // Up to 15 digits and a small power of ten: both are exact doubles, so one division rounds correctly.
+  // Everything else is left to the library.
+  static constexpr double powers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                      1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
   const char* p = at;
   const bool negative = p != end && *p == '-';
   if (p != end && (*p == '-' || *p == '+')) ++p;
   const char* const digits = p;
   std::uint64_t mantissa = 0;
-  while (p != end && *p >= '0' && *p <= '9') mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+  while (p != end && *p >= '0' && *p <= '9')
+    mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
   std::ptrdiff_t count = p - digits, decimals = 0;
   if (p != end && *p == '.') {
     const char* const point = ++p;
-    while (p != end && *p >= '0' && *p <= '9') mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
+    while (p != end && *p >= '0' && *p <= '9')
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p++ - '0');
     decimals = p - point;
     count += decimals;
   }
@@ -101,7 +104,8 @@ std::vector<Point> read_xyz(const std::filesystem::path& path) {
       break;
     }
     if (kept > kLongestLine)
-      throw InputError({path.string(), line + 1}, "the line is longer than 64 KiB: this is no text file of points",
+      throw InputError({path.string(), line + 1},
+                       "the line is longer than 64 KiB: this is no text file of points",
                        "a point a line: three numbers in metres, then anything");
     std::memmove(buffer.data(), at, kept);
   }
