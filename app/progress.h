@@ -9,18 +9,17 @@ namespace gramap {
 
 class Progress {
  public:
-  /// `total` steps of `what`, e.g. "perceiving rooms". A quiet progress prints nothing.
-  Progress(std::string what, std::size_t total, bool quiet = false);
+  /// Of `what`, e.g. "perceiving rooms". A quiet progress prints nothing.
+  explicit Progress(std::string what, bool quiet = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more step done; safe to call from any thread.
-  void step(const std::string& name);
+  /// One more of `total` steps done; safe to call from any thread.
+  void step(const std::string& name, std::size_t total);
 
  private:
   std::string what_;
-  std::size_t total_;
   std::size_t done_ = 0;
   bool quiet_;
   bool terminal_;

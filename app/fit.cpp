@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/fit_inputs.h"
+#include "app/verbs.h"
+#include "floor/gltf.h"
+#include "floor/model.h"
+#include "floor/room_table.h"
+#include "floor/verify.h"
+#include "geometry/error.h"
+#include "geometry/file.h"
+#include "version.h"
+
+namespace gramap {
+namespace {
+
+struct Options {
+  FitInputOptions inputs;
+  std::string output;
+  bool strict = false;
+};
+
+RunInfo run_info(const Options& options, const FittedFloor& fitted) {
+  RunInfo info;
+  info.version = GRAMAP_VERSION;
+  info.rule_file = std::filesystem::path(options.inputs.rules).filename().string();
+  info.options = itemised(options.inputs);
+  info.options.emplace_back("alternatives", std::to_string(options.inputs.fit.space.alternatives));
+  info.input_hashes = input_hashes(options.inputs);
+  for (const FittedSpace& space : fitted.spaces) info.score += space.score;
+  return info;
+}
+
+int run(const Options& options) {
+  const FitInputs inputs = read_inputs(options.inputs);
+  FittedFloor fitted =
+      fit_floor(inputs.floor, inputs.rules, inputs.problems, inputs.observations, options.inputs.fit);
+  fitted.set_aside.insert(fitted.set_aside.begin(), inputs.set_aside.begin(), inputs.set_aside.end());
+  if (options.strict && !fitted.set_aside.empty())
+    throw InputError({options.inputs.floor},
+                     fitted.set_aside.front().what + ": " + fitted.set_aside.front().reason,
+                     "leave --strict away to go on without it");
+  const FloorModel model = build_model(fitted);
+  const VerifyReport report = verify(model);
+  FILE* const out = options.output == "-" ? stderr : stdout;
+  std::fputs(room_table(fitted).c_str(), out);
+  std::fputs(to_text(report).c_str(), out);
+  if (!report.ok()) {
+    std::fprintf(stderr,
+                 "gramap: the model did not pass verification, so %s was not written; please report this "
+                 "with the inputs\n",
+                 options.output.c_str());
+    return kDefect;
+  }
+  write_file(options.output, to_glb(model, run_info(options, fitted)));
+  for (const SetAsideInput& aside : fitted.set_aside)
+    std::fprintf(stderr, "gramap: warning: %s was set aside: %s\n", aside.what.c_str(), aside.reason.c_str());
+  if (!options.inputs.quiet) std::fprintf(stderr, "gramap: wrote %s\n", options.output.c_str());
+  return fitted.set_aside.empty() ? kDone : kSetAside;
+}
+
+}  // namespace
+
+Verb declare_fit(CLI::App& gramap) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = gramap.add_subcommand(
+      "fit", "Fit a floor: scans, rules and a floor file in, a complete glTF floor out");
+  declare_inputs(*verb, options->inputs);
+  verb->add_option("-o,--output", options->output, "The model to write (.glb); - for standard output")
+      ->required();
+  verb->add_option("--alternatives", options->inputs.fit.space.alternatives,
+                   "How many next best layouts of each space to keep in the model")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  verb->add_flag("--strict", options->strict, "Refuse to write anything when some input has to be set aside");
+  return [options] { return run(*options); };
+}
+
+}  // namespace gramap

@@ -1,0 +1,134 @@
+#include "app/fit_inputs.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "app/progress.h"
+#include "app/rules_file.h"
+#include "floor/ground_truth.h"
+#include "floor/scan_folder.h"
+#include "geometry/error.h"
+#include "geometry/file.h"
+
+namespace gramap {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+fs::path floor_file(const FitInputOptions& options) {
+  return fs::is_directory(options.floor) ? fs::path(options.floor) / "floor.geojson"
+                                         : fs::path(options.floor);
+}
+
+/// Given, or the folder beside the floor file when the floor is a folder.
+fs::path scans_folder(const FitInputOptions& options) {
+  const fs::path beside = fs::path(options.floor) / "scans";
+  if (!options.scans.empty() || !fs::is_directory(beside)) return options.scans;
+  return beside;
+}
+
+}  // namespace
+
+void declare_inputs(CLI::App& verb, FitInputOptions& options) {
+  auto* floor = verb.add_option("floor", options.floor,
+                                "Floor file (floor.geojson), or a floor folder that may also hold scans/");
+  verb.add_option("-r,--rules", options.rules, "Rule file")->required();
+  verb.add_option("-s,--scans", options.scans,
+                  "Folder with a folder of scans for each room [FLOOR/scans when the floor is a folder]");
+  verb.add_option("--without", options.without, "Rooms whose scans to leave out, separated by commas")
+      ->delimiter(',');
+  const std::map<std::string, ScanFrame> frames{
+      {"auto", ScanFrame::automatic}, {"building", ScanFrame::building}, {"room", ScanFrame::room}};
+  verb.add_option("--frame", options.fit.placement.frame,
+                  "Frame of the poses: building, room (of its own, placed by pins), or auto: room where "
+                  "there is a pin")
+      ->transform(CLI::CheckedTransformer(frames, CLI::ignore_case))
+      ->default_str("auto");
+  verb.add_option("--pose-sigma", options.fit.placement.pose_sigma_m,
+                  "How far a room's poses may be off in the building's frame, metres (1 sigma)")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--outlier-share", options.fit.space.outlier_share,
+                  "Prior share of scanned rooms whose width is wrong")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-9, 0.9));
+  auto* rls =
+      verb.add_option("--rls", options.rls, "Instead of a floor and scans: reference line segments (CSV)")
+          ->excludes(floor);
+  auto* rls_rules = verb.add_option("--rules-csv", options.rls_rules,
+                                    "With --rls: the widths extracted along the segments (CSV)");
+  rls->needs(rls_rules);
+  rls_rules->needs(rls);
+  verb.add_option("--rls-sigma", options.rls_options.width_sigma_m,
+                  "With --rls: standard deviation of an extracted width, metres")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  verb.add_flag("-q,--quiet", options.quiet, "No progress");
+}
+
+FitInputs read_inputs(const FitInputOptions& options) {
+  if (options.floor.empty() && options.rls.empty())
+    throw CLI::RequiredError("a floor (or --rls with --rules-csv)");
+  FitInputs inputs;
+  inputs.rules = read_rules(options.rules);
+  if (!options.rls.empty()) {
+    RlsFloor ring = rls_floor(options.rls, options.rls_rules, inputs.rules, options.rls_options);
+    inputs.floor = std::move(ring.floor);
+    inputs.problems = std::move(ring.problems);
+    inputs.set_aside = std::move(ring.set_aside);
+    return inputs;
+  }
+  inputs.floor = read_floor(options.floor);
+  const fs::path scans = scans_folder(options);
+  if (!scans.empty()) {
+    Progress progress("perceiving rooms", options.quiet);
+    PerceivedFolder perceived =
+        perceive_folder(scans, options.without, options.perception,
+                        [&](const std::string& room, std::size_t rooms) { progress.step(room, rooms); });
+    if (perceived.rooms.empty() && !perceived.set_aside.empty()) {
+      std::string all;
+      for (const SetAsideInput& aside : perceived.set_aside) all += "\n  " + aside.what + ": " + aside.reason;
+      throw InputError(
+          {scans.string()}, "none of the scanned rooms can be used:" + all,
+          "mend at least one room, or fit the floor file alone to derive the floor from its rules");
+    }
+    inputs.observations = std::move(perceived.rooms);
+    inputs.set_aside = std::move(perceived.set_aside);
+  }
+  inputs.problems =
+      space_problems(inputs.floor, inputs.rules, inputs.observations, options.fit, inputs.set_aside);
+  return inputs;
+}
+
+std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions& options) {
+  std::vector<std::pair<std::string, std::string>> items;
+  std::string without;
+  for (const std::string& room : options.without) without += (without.empty() ? "" : ",") + room;
+  if (!without.empty()) items.emplace_back("without", without);
+  const char* frames[] = {"auto", "building", "room"};
+  items.emplace_back("frame", frames[static_cast<int>(options.fit.placement.frame)]);
+  items.emplace_back("pose-sigma", number(options.fit.placement.pose_sigma_m));
+  items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
+  if (!options.rls.empty()) items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));
+  return items;
+}
+
+std::vector<std::pair<std::string, std::string>> input_hashes(const FitInputOptions& options) {
+  std::vector<fs::path> files{options.rules};
+  if (options.rls.empty())
+    files.push_back(floor_file(options));
+  else
+    files.insert(files.end(), {options.rls, options.rls_rules});
+  std::vector<std::pair<std::string, std::string>> hashes;
+  for (const fs::path& file : files) hashes.emplace_back(file.filename().string(), hash_hex(read_file(file)));
+  return hashes;
+}
+
+}  // namespace gramap
