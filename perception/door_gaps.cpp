@@ -61,16 +61,17 @@ std::vector<OpeningObservation> find_door_gaps(const RegisteredCloud& cloud, con
     const WallObservation& wall = room.walls[index];
     Raster raster = label_wall(cloud, room, wall, options);
     const int foot_rows = std::max(1, static_cast<int>(options.foot_m / options.cell_m));
+    const int skirting_rows = static_cast<int>(std::ceil(options.skirting_m / options.cell_m));
     // A column belongs to a gap when most of what was seen of it was seen through, near the floor too.
     std::vector<double> open_share(static_cast<std::size_t>(raster.columns), 0.0);
     for (int column = 0; column < raster.columns; ++column) {
       int through = 0, hit = 0, through_foot = 0, hit_foot = 0;
-      for (int row = 0; row < raster.rows; ++row) {
+      for (int row = skirting_rows; row < raster.rows; ++row) {
         const Label label = raster.at(column, row);
         through += label == empty, hit += label == occupied;
         if (row < foot_rows) through_foot += label == empty, hit_foot += label == occupied;
       }
-      const bool foot_open = through_foot > hit_foot || (through_foot + hit_foot == 0 && through > hit);
+      const bool foot_open = through_foot >= hit_foot;
       if (through > hit && foot_open)
         open_share[static_cast<std::size_t>(column)] = static_cast<double>(through) / (through + hit);
     }

@@ -16,6 +16,7 @@ struct DoorGapOptions {
   double least_width_m = 0.6;  ///< narrower gaps are no doors
   double most_width_m = 2.6;   ///< nor are wider ones
   double head_m = 1.9;         ///< a door is open at least up to here, above the floor
+  double skirting_m = 0.15;    ///< below this, points of the floor itself lie near the plane
   double foot_m = 0.6;         ///< and down to below here, where a window has its parapet
 };
 
