@@ -84,15 +84,27 @@ struct SetAside {
   std::string reason;
 };
 
+/// How evidence was read that is not simply one room's width.
+struct Reinterpreted {
+  int evidence = 0;
+  std::string how;  ///< a sentence for people
+};
+
 struct SpaceFit {
   Layout best;
   std::vector<Layout> alternatives;  ///< the next best distinct sequences, best first
   std::vector<SetAside> set_aside;
+  std::vector<Reinterpreted> reinterpreted;
 };
 
 struct FitOptions {
   double grid_m = 0.01;         ///< step of the dynamic programme's positions
   double outlier_share = 0.02;  ///< ε: prior share of evidence that no room explains
+  double cut_off_share = 0.02;  ///< prior share of scans whose one wall is spurious, inside the room
+  double missed_wall_share = 0.01;  ///< prior share of scans that read two rooms as one
+  double doorless_share = 0.03;     ///< prior share of rooms without a door to the hallway
+  double second_door_share = 0.05;  ///< prior share of rooms with two doors or more
+  double false_door_share = 0.01;   ///< expected number of doors seen per space that are none
   int alternatives = 0;         ///< how many distinct alternatives to report
 };
 

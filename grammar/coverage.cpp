@@ -1,0 +1,103 @@
+#include "grammar/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "grammar/explanation.h"
+
+namespace gramap {
+namespace {
+
+/// Cells that a room of an element covers, relative to the element's first: begin inclusive, end exclusive.
+struct CellRange {
+  int begin;
+  int end;
+};
+
+CellRange covered(const ElementRoom& room, const Grid& grid, int width) {
+  const double clear_m = grid.width_m(width);
+  const double start = room.start.at(clear_m);
+  const double end = start + room.width.at(clear_m) + grid.wall_m;
+  return {std::clamp(static_cast<int>(std::lround(start / grid.step_m)), 0, width),
+          std::clamp(static_cast<int>(std::lround(end / grid.step_m)), 0, width)};
+}
+
+bool is_whole(const ElementRoom& room) {
+  return room.start.constant == 0 && room.start.slope == 0 && room.width.constant == 0 && room.width.slope == 1;
+}
+
+/// Rooms of one type and one stretch of the depth.
+using Channel = std::tuple<int, double, double>;
+
+Channel channel_of(const ElementRoom& room) { return {room.type, room.depth_start_m, room.depth_m}; }
+
+bool covers_depth(const Channel& channel, double depth_m) {
+  const auto [type, start, extent] = channel;
+  return extent < 0 || depth_m < 0 || (start <= depth_m && depth_m < start + extent);
+}
+
+}  // namespace
+
+std::vector<double> type_coverage(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
+                                  const std::vector<double>& posteriors, const std::vector<PathStep>& path) {
+  const Grid& grid = lattice.grid();
+  const auto cells = static_cast<std::size_t>(grid.cells) + 1;
+  std::map<Channel, std::vector<double>> changes;  // of the probability from cell to cell
+  for (const Element& element : lattice.row().elements)
+    for (const ElementRoom& room : element.rooms) changes[channel_of(room)].assign(cells, 0);
+
+  const double total = log_total(lattice, forward);
+  Edges edges(lattice);
+  for (int cell = 0; cell < grid.cells; ++cell) {
+    for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
+      if (posteriors[node] < kDeadPosterior) return;
+      for (const Arc& arc : lattice.arcs(state, cell)) {
+        const Element& element = lattice.row().elements[static_cast<std::size_t>(arc.element)];
+        for (const Move& move : edges.moves(cell, arc.element, e)) {
+          const double* weights = edges.sum(move);
+          const double* target = &backward.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
+          double scale_of = 0;
+          double factor = 0;
+          for (int i = 0; i < move.count; ++i) {
+            if (weights[i] * target[i] <= 0) continue;
+            const double scale = backward.log_scale[static_cast<std::size_t>(move.first_cell + i)];
+            if (factor <= 0 || scale != scale_of) {
+              scale_of = scale;
+              factor = forward.value[node] * arc.probability *
+                       std::exp(forward.log_scale[static_cast<std::size_t>(cell)] + scale - total);
+            }
+            const double p = factor * weights[i] * target[i];
+            const int width = move.first_cell + i - cell;
+            for (const ElementRoom& room : element.rooms) {
+              std::vector<double>& change = changes[channel_of(room)];
+              const CellRange range = is_whole(room) ? CellRange{0, width} : covered(room, grid, width);
+              change[static_cast<std::size_t>(cell + range.begin)] += p;
+              change[static_cast<std::size_t>(cell + range.end)] -= p;
+            }
+          }
+        }
+      }
+    });
+  }
+  for (auto& [channel, change] : changes)
+    for (std::size_t i = 1; i < cells; ++i) change[i] += change[i - 1];
+
+  std::vector<double> probabilities;
+  for (const PathStep& step : path) {
+    for (const ElementRoom& room : placed_element(lattice, step).rooms) {
+      const CellRange range = covered(room, grid, step.width);
+      const int middle = step.cell + (range.begin + range.end) / 2;
+      const double depth = room.depth_m < 0 ? -1 : room.depth_start_m + 0.5 * room.depth_m;
+      double probability = 0;
+      for (const auto& [channel, covering] : changes)
+        if (std::get<0>(channel) == room.type && covers_depth(channel, depth))
+          probability += covering[static_cast<std::size_t>(middle)];
+      probabilities.push_back(std::clamp(probability, 0.0, 1.0));
+    }
+  }
+  return probabilities;
+}
+
+}  // namespace gramap

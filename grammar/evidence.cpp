@@ -1,0 +1,202 @@
+#include "grammar/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace gramap {
+namespace {
+
+constexpr double kDepthShare = 0.9;       // rooms that are as deep as their space
+constexpr double kDepthSd_m = 0.1;        // their spread
+constexpr double kThirdDoorShare = 0.2;   // of rooms with n doors, those that have one more
+constexpr double kSmallestSlack_m = 0.1;  // a door in a room of its own width still has some play
+
+double gauss(double x, double mean, double sd) {
+  const double u = (x - mean) / sd;
+  if (std::abs(u) > kGateSigmas) return 0;
+  return std::exp(-0.5 * u * u) / (sd * std::sqrt(2 * std::numbers::pi));
+}
+
+double cumulative(double u) { return 0.5 * std::erfc(-u / std::numbers::sqrt2); }
+
+/// Density of the dimension across the line.
+double across_density(double value_m, double sd_m, double depth_m, double range_m) {
+  if (depth_m <= 0) return 1 / range_m;
+  return kDepthShare * gauss(value_m, depth_m, std::hypot(sd_m, kDepthSd_m)) + (1 - kDepthShare) / range_m;
+}
+
+int to_cell(double position_m, const Grid& grid) {
+  return static_cast<int>(std::lround(std::clamp(position_m / grid.step_m, -1e9, 1e9)));
+}
+
+/// The cells at which a room may start that explains the evidence in one of the ways `Evidence::reading` knows.
+void set_window(PreparedEvidence& e, const Grid& grid) {
+  if (!e.has_centre) {
+    e.first_start = 0;
+    e.last_start = grid.cells - 1;
+    return;
+  }
+  const double wall_gate = kGateSigmas * e.wall_sd_m;
+  double first = std::min(e.start_wall_m() - wall_gate, e.end_wall_m() - wall_gate - e.width_m - kMostCutOff_m);
+  double last = std::max(e.start_wall_m() + wall_gate, e.end_wall_m() + wall_gate - e.width_m);
+  const auto widen = [&](double width, double sd) {
+    const double reach = kGateSigmas * (e.centre_sd_m + 0.5 * sd);
+    first = std::min(first, e.centre_m - 0.5 * width - reach);
+    last = std::max(last, e.centre_m - 0.5 * width + reach);
+  };
+  widen(e.width_m, e.width_sd_m);
+  if (e.has_other) widen(e.other_m, e.other_sd_m);
+  e.first_start = std::clamp(to_cell(first, grid) - 1, 0, grid.cells - 1);
+  e.last_start = std::clamp(to_cell(last, grid) + 1, -1, grid.cells - 1);
+}
+
+}  // namespace
+
+Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options,
+                   const Grid& grid)
+    : rules_(rules), options_(options), grid_(grid), depth_m_(problem.depth_m) {
+  width_range_m_ = std::max(rules.background.most_m, 1.0);
+  const double h = grid.step_m;
+  const double range = width_range_m_;
+  const std::size_t types = rules.rooms.size();
+  bool in_order = false;  // as given
+  for (std::size_t i = 0; i < problem.rooms.size(); ++i) {
+    const RoomEvidence& given = problem.rooms[i];
+    PreparedEvidence e;
+    e.original = static_cast<int>(i);
+    e.width_m = given.width_m;
+    e.width_sd_m = std::sqrt(given.width_sigma_m * given.width_sigma_m + h * h / 6);
+    e.has_other = given.other_width_m.has_value();
+    e.other_m = given.other_width_m.value_or(0);
+    e.other_sd_m = std::sqrt(given.other_sigma_m * given.other_sigma_m + h * h / 6);
+    e.has_centre = given.centre_m.has_value();
+    in_order = in_order || !e.has_centre;
+    e.centre_m = given.centre_m.value_or(0);
+    e.centre_sd_m = std::sqrt(given.centre_sigma_m * given.centre_sigma_m + h * h / 24);
+    e.wall_sd_m = std::sqrt(given.centre_sigma_m * given.centre_sigma_m +
+                            0.25 * given.width_sigma_m * given.width_sigma_m + h * h / 12);
+    e.aside = options.outlier_share / range;
+    if (e.has_centre) e.aside /= problem.length_m;
+    if (e.has_other) {
+      e.aside /= range;
+      e.depth_factor = across_density(e.other_m, e.other_sd_m, depth_m_, range);
+      e.swapped_depth_factor = across_density(e.width_m, e.width_sd_m, depth_m_, range);
+    }
+    e.type_factor.assign(types + 1, 1);
+    const auto known = std::find_if(rules.rooms.begin(), rules.rooms.end(),
+                                    [&](const RoomType& room) { return room.name == given.type; });
+    if (!given.type.empty() && known != rules.rooms.end()) {
+      const double even = 1.0 / static_cast<double>(types + 1);
+      const double sure = std::clamp(given.type_confidence, 0.0, 0.999);
+      e.type_factor.assign(types + 1, (1 - sure) * even);
+      e.type_factor[static_cast<std::size_t>(known - rules.rooms.begin())] += sure;
+      e.type_even = even;
+      e.aside *= even;
+    }
+    set_window(e, grid);
+    rooms_.push_back(std::move(e));
+  }
+  if (!in_order)
+    std::stable_sort(rooms_.begin(), rooms_.end(), [](const PreparedEvidence& a, const PreparedEvidence& b) {
+      if (a.centre_m != b.centre_m) return a.centre_m < b.centre_m;
+      return a.width_m < b.width_m;
+    });
+
+  if (problem.doors_visible.empty()) return;
+  doors_ = problem.doors;
+  std::sort(doors_.begin(), doors_.end(),
+            [](const DoorEvidence& a, const DoorEvidence& b) { return a.centre_m < b.centre_m; });
+  for (DoorEvidence& door : doors_) door.sigma_m = std::sqrt(door.sigma_m * door.sigma_m + h * h / 12);
+  for (int n = 0; n <= grid.cells; ++n) {
+    const double edge = n == grid.cells ? 1e9 : n == 0 ? -1e9 : grid.position_m(n) - 0.5 * grid.wall_m;
+    int before = 0;
+    for (const DoorEvidence& door : doors_) before += door.centre_m < edge ? 1 : 0;
+    doors_before_.push_back(before);
+    double seen = 0;
+    for (const Stretch& stretch : problem.doors_visible)
+      seen += std::max(0.0, std::min(edge, stretch.end_m) - stretch.start_m);
+    visible_.push_back(seen);
+  }
+}
+
+double Evidence::reading(const PreparedEvidence& e, Reading how, const Extent& room) const {
+  const double known = 1 - options_.outlier_share;
+  const double whole_share = 1 - options_.cut_off_share - options_.missed_wall_share;
+  const double width = room.width_m();
+  const auto fits = [&](double read_m, double sd_m) {
+    const double position = e.has_centre ? gauss(e.centre_m, room.centre_m(), e.centre_sd_m) : 1;
+    return position > 0 ? known * whole_share * position * gauss(read_m, width, sd_m) : 0;
+  };
+  switch (how) {
+    case Reading::aside:
+      return e.aside;
+    case Reading::whole:
+      return (e.has_other ? 0.5 : 1) * e.depth_factor * fits(e.width_m, e.width_sd_m);
+    case Reading::swapped:
+      return e.has_other ? 0.5 * e.swapped_depth_factor * fits(e.other_m, e.other_sd_m) : 0;
+    default:
+      break;
+  }
+  if (!e.has_centre) return 0;
+  if (how == Reading::opens)
+    return known * options_.missed_wall_share * e.depth_factor * e.type_even *
+           gauss(e.start_wall_m(), room.start_m, e.wall_sd_m);
+  if (how == Reading::closes) return gauss(e.end_wall_m(), room.end_m, e.wall_sd_m);
+  const double cut_off_m = width - e.width_m;
+  if (cut_off_m <= 0 || cut_off_m > kMostCutOff_m) return 0;
+  const double wall = how == Reading::start_only ? gauss(e.start_wall_m(), room.start_m, e.wall_sd_m)
+                                                 : gauss(e.end_wall_m(), room.end_m, e.wall_sd_m);
+  return known * options_.cut_off_share * 0.5 * e.depth_factor * wall / kMostCutOff_m;
+}
+
+double Evidence::belongs(const PreparedEvidence& e, const Extent& room) const {
+  return reading(e, Reading::whole, room) + reading(e, Reading::swapped, room) +
+         reading(e, Reading::start_only, room) + reading(e, Reading::end_only, room);
+}
+
+double Evidence::door_place(const DoorEvidence& door, const RoomType* type, const Extent& room) const {
+  const double half = 0.5 * door.width_m;
+  const double fits = cumulative((door.centre_m - half - room.start_m) / door.sigma_m) *
+                      cumulative((room.end_m - half - door.centre_m) / door.sigma_m);
+  if (type == nullptr || !type->door || type->door->places.empty())
+    return fits / std::max(room.width_m() - door.width_m, kSmallestSlack_m);
+  double density = 0;
+  double weights = 0;
+  for (const DoorHabit::Place& place : type->door->places) {
+    const double offset =
+        place.from_end ? room.end_m - door.centre_m - half : door.centre_m - half - room.start_m;
+    const double sd = std::hypot(std::max(place.offset.sd_m, 0.01), door.sigma_m);
+    density += place.weight * gauss(offset, place.offset.mean_m, sd);
+    weights += place.weight;
+  }
+  return fits * density / weights;
+}
+
+double Evidence::doors(int type, int first_cell, int last_cell) const {
+  const Extent room{grid_.position_m(first_cell), grid_.position_m(last_cell) - grid_.wall_m};
+  const auto first = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(first_cell)]);
+  const auto last = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(last_cell)]);
+  const double length_m = grid_.cells * grid_.step_m;
+  const double seen_m = visible_[static_cast<std::size_t>(last_cell)] - visible_[static_cast<std::size_t>(first_cell)];
+  const double seen = std::clamp(seen_m / (room.width_m() + grid_.wall_m), 0.0, 1.0);
+  const double none = options_.doorless_share + (1 - options_.doorless_share) * (1 - seen);
+  if (first == last) return none;
+
+  const double one = 1 - options_.doorless_share - options_.second_door_share;
+  const double lone_false = options_.false_door_share / length_m;
+  const RoomType* room_type = type < 0 ? nullptr : &rules_.rooms[static_cast<std::size_t>(type)];
+  double all_false = none;
+  double one_real = 0;
+  double all_real = options_.second_door_share;
+  for (std::size_t i = first; i < last; ++i) {
+    one_real = one_real * lone_false + all_false / none * door_place(doors_[i], room_type, room);
+    all_false *= lone_false;
+    all_real *= door_place(doors_[i], nullptr, room);
+    if (i >= first + 2) all_real *= kThirdDoorShare;
+  }
+  return all_false + one * one_real + (last - first >= 2 ? all_real : 0);
+}
+
+}  // namespace gramap

@@ -1,0 +1,163 @@
+// The fit of one space: row automaton, lattice, sums and optimum, then widths off the grid.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/error.h"
+#include "grammar/coverage.h"
+#include "grammar/explanation.h"
+#include "grammar/fillable.h"
+#include "grammar/inference.h"
+#include "grammar/lattice.h"
+#include "grammar/sequence.h"
+#include "grammar/space.h"
+#include "grammar/trace.h"
+
+namespace gramap {
+namespace {
+
+std::string metres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f m", value_m);
+  return text;
+}
+
+void check(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  const auto fail = [&](const std::string& message) {
+    throw InputError({}, "space " + problem.id + ": " + message);
+  };
+  if (rules.symbols.empty()) fail("the rules have no start symbol");
+  if (!(problem.length_m > 0) || !std::isfinite(problem.length_m)) fail("its length is not positive");
+  if (!(options.grid_m > 0)) fail("the grid step is not positive");
+  for (const RoomEvidence& e : problem.rooms) {
+    const bool width = std::isfinite(e.width_m) && e.width_m > 0 && e.width_sigma_m > 0;
+    const bool other = !e.other_width_m || (*e.other_width_m > 0 && e.other_sigma_m > 0);
+    const bool centre = !e.centre_m || (std::isfinite(*e.centre_m) && e.centre_sigma_m > 0);
+    if (!width || !other || !centre)
+      fail("the observation of " + e.id + " has a width, position or standard deviation that is not positive");
+  }
+  for (const DoorEvidence& door : problem.doors)
+    if (!std::isfinite(door.centre_m) || !(door.sigma_m > 0))
+      fail("a door has a position or standard deviation that makes no sense");
+}
+
+[[noreturn]] void refuse(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  std::string names;
+  for (const Rule& rule : rules.rules)
+    if (rule.symbol == 0) names += (names.empty() ? "" : ", ") + rule.name;
+  const std::optional<double> nearest = nearest_fillable_m(rules, problem, options);
+  throw InputError({},
+                   "space " + problem.id + ": no layout of the rules of " + rules.symbols.front() + " (" + names +
+                       ") fills its " + metres(problem.length_m),
+                   nearest ? "the nearest length that they can fill is " + metres(*nearest)
+                           : "they fill no length near it; see `gramap check --lengths`");
+}
+
+std::string rule_name(const RuleSet& rules, int rule) {
+  return rule < 0 ? "background" : rules.rules[static_cast<std::size_t>(rule)].name;
+}
+
+/// The rooms of a path. Inside a unit a room's walls follow the unit's: their deviations do, too.
+std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice, const std::vector<PathStep>& path,
+                                    const std::vector<double>& starts, const SequencePosterior& posterior,
+                                    const std::vector<std::vector<Explained>>& explained, double length_m) {
+  std::vector<PlacedRoom> placed;
+  const Grid& grid = lattice.grid();
+  const Trace derivation = trace(rules, lattice, path);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Element& element = placed_element(lattice, path[i]);
+    const bool is_last = i + 1 == path.size();
+    const double start = starts[i];
+    const double end = is_last ? length_m : starts[i + 1] - grid.wall_m;
+    const SequencePosterior::Place& place = posterior.places[i];
+    const auto deviation = [&](double slope) {  // of start + slope * width
+      const double variance = place.start_sd_m * place.start_sd_m + slope * slope * place.width_sd_m * place.width_sd_m +
+                              2 * slope * place.covariance_m2;
+      return std::sqrt(std::max(0.0, variance));
+    };
+    for (std::size_t r = 0; r < element.rooms.size(); ++r) {
+      const ElementRoom& inner = element.rooms[r];
+      const bool whole = inner.start.constant == 0 && inner.start.slope == 0 && inner.width.constant == 0 &&
+                         inner.width.slope == 1;
+      PlacedRoom room;
+      room.type = inner.type < 0 ? "Unknown" : rules.rooms[static_cast<std::size_t>(inner.type)].name;
+      room.start_m = start + inner.start.at(end - start);
+      room.width_m = whole ? end - start : inner.width.at(end - start);
+      room.width_sigma_m = inner.width.slope * place.width_sd_m;
+      room.start_sigma_m = deviation(inner.start.slope);
+      room.end_sigma_m = whole ? place.end_sd_m : deviation(inner.start.slope + inner.width.slope);
+      room.rule = rule_name(rules, inner.rule);
+      for (const int rule : rules_down_to(derivation, derivation.placed_by[i])) room.rule_path.push_back(rule_name(rules, rule));
+      if (room.rule_path.empty() || room.rule_path.back() != room.rule) room.rule_path.push_back(room.rule);
+      room.depth_start_m = inner.depth_start_m;
+      room.depth_m = inner.depth_m;
+      for (const Explained& e : explained[i]) {
+        if (e.room != static_cast<int>(r)) continue;
+        room.evidence.push_back(lattice.evidence().rooms()[static_cast<std::size_t>(e.evidence)].original);
+        if (e.how == Reading::swapped) room.swapped = true;
+      }
+      placed.push_back(std::move(room));
+    }
+  }
+  return placed;
+}
+
+void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
+                     const std::vector<std::vector<Explained>>& explained, SpaceFit& fit) {
+  std::vector<bool> used(problem.rooms.size(), false);
+  for (const std::vector<Explained>& of_element : explained) {
+    for (const Explained& e : of_element) {
+      const int original = lattice.evidence().rooms()[static_cast<std::size_t>(e.evidence)].original;
+      used[static_cast<std::size_t>(original)] = true;
+      const std::string width = metres(problem.rooms[static_cast<std::size_t>(original)].width_m);
+      if (e.how == Reading::opens)
+        fit.reinterpreted.push_back({original, "read as one room of " + width + ", but it is two: a wall was missed"});
+      if (e.how == Reading::start_only || e.how == Reading::end_only)
+        fit.reinterpreted.push_back(
+            {original, "only the wall at its " + std::string(e.how == Reading::start_only ? "start" : "end") +
+                           " is right: what was read as the other one, " + width +
+                           " from it, stands inside the room"});
+    }
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!used[i])
+      fit.set_aside.push_back({static_cast<int>(i), "no room of the most probable layout explains its width of " +
+                                                        metres(problem.rooms[i].width_m) +
+                                                        (problem.rooms[i].centre_m ? " at its place" : " in its order")});
+}
+
+}  // namespace
+
+SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  check(rules, problem, options);
+  const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, options.grid_m);
+  const CompiledRow compiled =
+      compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
+  if (compiled.fault)
+    throw InputError({}, "space " + problem.id + ": rule " + rule_name(rules, compiled.fault->rule) + ": " +
+                             compiled.fault->message);
+  const Evidence evidence(rules, problem, options, grid);
+  const Lattice lattice(compiled.row, grid, evidence);
+  const NodeTable before = forward(lattice);
+  const double total = log_total(lattice, before);
+  if (!std::isfinite(total)) refuse(rules, problem, options);
+  const NodeTable behind = backward(lattice, before);
+  const std::vector<double> posteriors = node_posteriors(lattice, before, behind);
+  const NodeTable best = best_completion(lattice, posteriors);
+  const std::vector<PathStep> path = best_path(lattice, best);
+
+  SpaceFit fit;
+  const auto explained = explain(lattice, path);
+  const std::vector<double> starts = refine(lattice, path, explained);
+  const SequencePosterior posterior = sequence_posterior(lattice, behind, posteriors, path);
+  fit.best.rooms = place_rooms(rules, lattice, path, starts, posterior, explained, problem.length_m);
+  fit.best.score = log_best(lattice, best);
+  fit.best.probability = std::exp(posterior.log_weight - total);
+  const std::vector<double> type_probabilities = type_coverage(lattice, before, behind, posteriors, path);
+  for (std::size_t i = 0; i < fit.best.rooms.size(); ++i)
+    fit.best.rooms[i].type_probability = type_probabilities[i];
+  report_evidence(problem, lattice, explained, fit);
+  return fit;
+}
+
+}  // namespace gramap

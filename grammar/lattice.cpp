@@ -1,0 +1,362 @@
+#include "grammar/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gramap {
+namespace {
+
+constexpr double kCoarseStep_m = 0.1;  // of rooms of any width, where no evidence asks for better
+constexpr double kFineSigmas = 4;      // what counts as near an evidence
+
+double cumulative(double u) { return 0.5 * std::erfc(-u / std::numbers::sqrt2); }
+
+/// Adds `weight` x the mass of a normal to stretches sorted by their first width, merging those that touch.
+void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& normal, const Grid& grid,
+                int longest) {
+  const double h = grid.step_m;
+  const double reach = kMassSigmas * normal.sd_m;
+  const auto cells = [&](double width_m) { return (width_m + grid.wall_m) / h; };
+  const int least = std::max(1, static_cast<int>(std::floor(grid.wall_m / h)) + 1);
+  const int first = std::max(least, static_cast<int>(std::lround(std::max(0.0, cells(normal.mean_m - reach)))));
+  const int last = std::min<int>(longest, static_cast<int>(std::lround(std::min(1e8, cells(normal.mean_m + reach)))));
+  if (last < first) return;
+  WidthMass made{first, {}};
+  double before = cumulative((grid.width_m(first) - 0.5 * h - normal.mean_m) / normal.sd_m);
+  for (int k = first; k <= last; ++k) {
+    const double now = cumulative((grid.width_m(k) + 0.5 * h - normal.mean_m) / normal.sd_m);
+    made.mass.push_back(weight * (now - before));
+    before = now;
+  }
+  for (std::size_t i = 0; i < stretches.size();) {
+    WidthMass& other = stretches[i];
+    const int made_end = made.first + static_cast<int>(made.mass.size());
+    const int other_end = other.first + static_cast<int>(other.mass.size());
+    if (other.first > made_end || made.first > other_end) {
+      ++i;
+      continue;
+    }
+    WidthMass both{std::min(made.first, other.first), {}};
+    both.mass.assign(static_cast<std::size_t>(std::max(made_end, other_end) - both.first), 0);
+    for (const WidthMass* part : {&made, &other})
+      for (std::size_t k = 0; k < part->mass.size(); ++k)
+        both.mass[static_cast<std::size_t>(part->first - both.first) + k] += part->mass[k];
+    made = std::move(both);
+    stretches.erase(stretches.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  const auto place = std::find_if(stretches.begin(), stretches.end(),
+                                  [&](const WidthMass& other) { return other.first > made.first; });
+  stretches.insert(place, std::move(made));
+}
+
+}  // namespace
+
+std::vector<WidthMass> mixture_mass(const Mixture& mixture, const Grid& grid) {
+  std::vector<WidthMass> stretches;
+  for (const Mixture::Component& component : mixture.components)
+    if (component.weight > 0)
+      add_normal(stretches, component.weight, component.normal, grid, grid.cells);
+  return stretches;
+}
+
+Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence)
+    : row_(row), grid_(grid), evidence_(evidence) {
+  const int n = grid.cells;
+  const auto& rooms = evidence.rooms();
+  const int count = static_cast<int>(rooms.size());
+
+  for (const Element& element : row.elements) {
+    masses_.emplace_back();
+    if (element.kind == Element::Width::mixture) {
+      masses_.back() = mixture_mass(element.mixture, grid);
+      for (const WidthMass& mass : masses_.back())
+        longest_ = std::max(longest_, mass.first + static_cast<int>(mass.mass.size()));
+    } else if (element.kind == Element::Width::uniform) {
+      longest_ = std::max(longest_, static_cast<int>((element.most_m + grid.wall_m) / grid.step_m) + 1);
+    } else {
+      longest_ = n;
+    }
+  }
+  longest_ = std::min(longest_, n);
+
+  fine_before_.assign(static_cast<std::size_t>(n) + 2, 0);
+  const auto mark = [&](double position_m, double sd_m) {
+    const double reach = kFineSigmas * sd_m;
+    const int first = std::clamp(static_cast<int>(std::floor(std::clamp((position_m - reach) / grid.step_m, -1e8, 1e8))), 0, n + 1);
+    const int last = std::clamp(static_cast<int>(std::ceil(std::clamp((position_m + reach) / grid.step_m, -1e8, 1e8))), -1, n);
+    for (int i = first; i <= last; ++i) fine_before_[static_cast<std::size_t>(i) + 1] = 1;
+  };
+  for (const PreparedEvidence& e : rooms) {
+    if (e.has_centre) {
+      mark(e.start_wall_m(), e.wall_sd_m);
+      mark(e.end_wall_m() + grid.wall_m, e.wall_sd_m);
+    } else {
+      const auto cells = [&](double width_m) {
+        return static_cast<int>(std::lround(std::clamp((width_m + grid.wall_m) / grid.step_m, -1e8, 1e8)));
+      };
+      fine_widths_.emplace_back(cells(e.width_m - kFineSigmas * e.width_sd_m),
+                                cells(e.width_m + kFineSigmas * e.width_sd_m));
+      if (e.has_other)
+        fine_widths_.emplace_back(cells(e.other_m - kFineSigmas * e.other_sd_m),
+                                  cells(e.other_m + kFineSigmas * e.other_sd_m));
+    }
+  }
+  fine_before_[static_cast<std::size_t>(n) + 1] = 1;  // the end of the space
+  for (std::size_t i = 1; i < fine_before_.size(); ++i) fine_before_[i] += fine_before_[i - 1];
+
+  for (int j = 0; j <= count; ++j) {
+    const PreparedEvidence* e = j < count ? &rooms[static_cast<std::size_t>(j)] : nullptr;
+    const PreparedEvidence* before = j > 0 ? &rooms[static_cast<std::size_t>(j - 1)] : nullptr;
+    const int first = before != nullptr ? std::min(before->first_start, before->last_start) + 1 : 0;
+    first_cell_.push_back(first);
+    last_cell_.push_back(std::max(first - 1, e != nullptr ? e->last_start : n));
+    if (e == nullptr) break;
+    const int opened = e->first_start + 1;
+    int closing = opened - 1;
+    if (e->has_centre)
+      closing = static_cast<int>(std::clamp((e->end_wall_m() + kGateSigmas * e->wall_sd_m) / grid.step_m, 0.0, n - 1.0));
+    first_cell_.push_back(opened);
+    last_cell_.push_back(std::max(opened - 1, closing));
+  }
+  alive_.assign(static_cast<std::size_t>(n) + 1, {evidence_states(), -1});
+  for (int e = 0; e < evidence_states(); ++e) {
+    const auto id = static_cast<std::size_t>(e);
+    offset_.push_back(nodes_);
+    nodes_ += static_cast<std::size_t>(last_cell_[id] - first_cell_[id] + 1) * row.arcs.size();
+    for (int cell = first_cell_[id]; cell <= last_cell_[id]; ++cell) {
+      auto& [least, most] = alive_[static_cast<std::size_t>(cell)];
+      least = std::min(least, e);
+      most = std::max(most, e);
+    }
+  }
+  reach_.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (int j = 0; j < count; ++j) {
+    int& reach = reach_[static_cast<std::size_t>(rooms[static_cast<std::size_t>(j)].first_start)];
+    reach = std::max(reach, j + 1);
+  }
+  for (std::size_t i = 1; i < reach_.size(); ++i) reach_[i] = std::max(reach_[i], reach_[i - 1]);
+}
+
+std::pair<int, double> Lattice::start() const {
+  double weight = 1;
+  int next = 0;
+  const auto& rooms = evidence_.rooms();
+  while (next < static_cast<int>(rooms.size()) && rooms[static_cast<std::size_t>(next)].last_start < 0)
+    weight *= rooms[static_cast<std::size_t>(next++)].aside;
+  return {2 * next, weight};
+}
+
+bool Lattice::needs_fine_steps(int cell, int first, int last) const {
+  const auto from = static_cast<std::size_t>(std::min(cell + first, grid_.cells + 1));
+  const auto to = static_cast<std::size_t>(std::min(cell + last, grid_.cells)) + 1;
+  if (to > from && fine_before_[to] > fine_before_[from]) return true;
+  return std::any_of(fine_widths_.begin(), fine_widths_.end(),
+                     [&](const auto& fine) { return fine.first <= last && first <= fine.second; });
+}
+
+std::vector<WidthMass> Lattice::uniform_mass(const Element& element, int cell) const {
+  const double h = grid_.step_m;
+  const int first = std::max(1, static_cast<int>(std::ceil((element.least_m + grid_.wall_m) / h - 1e-9)));
+  const int last = static_cast<int>(std::floor((element.most_m + grid_.wall_m) / h + 1e-9));
+  const int coarse = std::max(1, static_cast<int>(std::lround(kCoarseStep_m / h)));
+  const int end = std::min(last, grid_.cells - cell);
+  if (end < first) return {};
+  WidthMass mass{first, std::vector<double>(static_cast<std::size_t>(end - first + 1), 0)};
+  const double fine = 1.0 / (last - first + 1);
+  for (int begin = first; begin <= end; begin += coarse) {
+    const int stop = std::min(begin + coarse - 1, last);
+    if (coarse == 1 || needs_fine_steps(cell, begin, stop)) {
+      for (int k = begin; k <= std::min(stop, end); ++k) mass.mass[static_cast<std::size_t>(k - first)] = fine;
+    } else if ((begin + stop) / 2 <= end) {
+      mass.mass[static_cast<std::size_t>((begin + stop) / 2 - first)] = fine * (stop - begin + 1);
+    }
+  }
+  return {mass};
+}
+
+std::vector<WidthMass> Lattice::widths(int cell, int element) const {
+  const Element& placed = row_.elements[static_cast<std::size_t>(element)];
+  const int rest = grid_.cells - cell;
+  if (placed.kind == Element::Width::uniform) return uniform_mass(placed, cell);
+  std::vector<WidthMass> masses;
+  if (placed.kind == Element::Width::share) {
+    add_normal(masses, 1, {placed.share.at(grid_.remaining_m(cell)), placed.share_sd_m}, grid_, rest);
+    return masses;
+  }
+  for (const WidthMass& mass : masses_[static_cast<std::size_t>(element)]) {
+    if (mass.first > rest) continue;
+    masses.push_back(mass);
+    if (masses.back().first + static_cast<int>(mass.mass.size()) - 1 > rest)
+      masses.back().mass.resize(static_cast<std::size_t>(rest - mass.first + 1));
+  }
+  return masses;
+}
+
+Extent element_extent(const Grid& grid, int cell, int width) {
+  return {grid.position_m(cell), grid.position_m(cell) + grid.width_m(width)};
+}
+
+Extent room_extent(const Grid& grid, int cell, int width, const ElementRoom& room) {
+  const double clear_m = grid.width_m(width);
+  const double start = grid.position_m(cell) + room.start.at(clear_m);
+  return {start, start + room.width.at(clear_m)};
+}
+
+double belongs(const Lattice& lattice, int cell, int width, const Element& element, const PreparedEvidence& e) {
+  double sum = 0;
+  for (const ElementRoom& room : element.rooms)
+    sum += lattice.evidence().type_factor(e, room.type) *
+           lattice.evidence().belongs(e, room_extent(lattice.grid(), cell, width, room));
+  return sum / static_cast<double>(element.rooms.size());
+}
+
+const Edges::Prior& Edges::prior(int element) {
+  for (std::size_t i = 0; i < prior_count_; ++i)
+    if (priors_[i].element == element) return priors_[i];
+  if (prior_count_ == priors_.size()) priors_.emplace_back();
+  Prior& prior = priors_[prior_count_++];
+  prior.element = element;
+  prior.masses = lattice_.widths(cell_, element);
+  if (!lattice_.evidence().has_doors()) return prior;
+  const Grid& grid = lattice_.grid();
+  const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
+  for (WidthMass& mass : prior.masses) {
+    for (std::size_t i = 0; i < mass.mass.size(); ++i) {
+      if (mass.mass[i] <= 0) continue;
+      const int width = mass.first + static_cast<int>(i);
+      for (const ElementRoom& room : placed.rooms) {
+        if (!room.at_hallway) continue;
+        const double clear_m = grid.width_m(width);
+        const double start = room.start.at(clear_m);
+        const double end = start + room.width.at(clear_m) + grid.wall_m;
+        const int first = std::clamp(static_cast<int>(std::lround(start / grid.step_m)), 0, width);
+        const int last = std::clamp(static_cast<int>(std::lround(end / grid.step_m)), first, width);
+        mass.mass[i] *= lattice_.evidence().doors(room.type, cell_ + first, cell_ + last);
+      }
+    }
+  }
+  return prior;
+}
+
+/// Adds edges to cells cell + first_width + i; evidence that has passed by there is skipped.
+void Edges::add(std::vector<Move>& moves, int evidence_state, int first_width, const std::vector<double>& sum,
+                const std::vector<double>& max, int matched) {
+  const auto put = [&](int target, int from, int to, double factor) {
+    Move move;
+    move.target_evidence = target;
+    move.first_cell = from;
+    move.count = to - from + 1;
+    move.matched = matched;
+    const auto copy = [&](const std::vector<double>& weights) {
+      const std::size_t begin = weights_.size();
+      const auto first = weights.begin() + (from - cell_ - first_width);
+      for (auto w = first; w != first + move.count; ++w) weights_.push_back(factor * *w);
+      return begin;
+    };
+    move.sum = copy(sum);
+    move.max = &sum == &max ? move.sum : copy(max);
+    moves.push_back(move);
+  };
+  int from = cell_ + first_width;
+  const int end = from + static_cast<int>(sum.size()) - 1;
+  if (evidence_state % 2 == 1) {
+    const int first = std::max(from, lattice_.first_cell(evidence_state));
+    const int last = std::min(end, lattice_.last_cell(evidence_state));
+    if (first <= last) put(evidence_state, first, last, 1);
+    return;
+  }
+  const auto& rooms = lattice_.evidence().rooms();
+  int next = evidence_state / 2;
+  double factor = 1;
+  while (from <= end) {
+    while (next < static_cast<int>(rooms.size()) && from > rooms[static_cast<std::size_t>(next)].last_start)
+      factor *= rooms[static_cast<std::size_t>(next++)].aside;
+    const int to = next < static_cast<int>(rooms.size())
+                       ? std::min(end, rooms[static_cast<std::size_t>(next)].last_start)
+                       : end;
+    put(2 * next, from, to, factor);
+    from = to + 1;
+  }
+}
+
+/// Edges on which the room explains evidence `next` or later ones.
+void Edges::add_matches(std::vector<Move>& moves, const Element& element, const WidthMass& prior, int next) {
+  const auto& rooms = lattice_.evidence().rooms();
+  const int reach = lattice_.reach(cell_);
+  std::vector<double> sum = prior.mass;
+  std::vector<double> max = prior.mass;
+  for (int j = next; j < reach; ++j) {
+    const PreparedEvidence& e = rooms[static_cast<std::size_t>(j)];
+    const bool near = e.first_start <= cell_ && cell_ <= e.last_start;
+    std::vector<double> weight(sum.size(), 0);
+    int first = -1;
+    int last = -1;
+    if (near) {
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        if (sum[i] <= 0) continue;
+        weight[i] = belongs(lattice_, cell_, prior.first + static_cast<int>(i), element, e);
+        if (weight[i] <= 0) continue;
+        if (first < 0) first = static_cast<int>(i);
+        last = static_cast<int>(i);
+      }
+      const double opens = lattice_.evidence().reading(e, Reading::opens, element_extent(lattice_.grid(), cell_, 1));
+      if (opens > 0) {
+        std::vector<double> opened_sum = sum;
+        std::vector<double> opened_max = max;
+        for (double& w : opened_sum) w *= opens;
+        for (double& w : opened_max) w *= opens;
+        add(moves, 2 * j + 1, prior.first, opened_sum, opened_max, j);
+      }
+    }
+    if (first >= 0) {
+      std::vector<double> matched_sum;
+      std::vector<double> matched_max;
+      for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
+        matched_sum.push_back(sum[i] * weight[i]);
+        matched_max.push_back(max[i] * weight[i]);
+      }
+      add(moves, 2 * (j + 1), prior.first + first, matched_sum, matched_max, j);
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      sum[i] *= weight[i] + e.aside;
+      max[i] *= std::max(weight[i], e.aside);
+    }
+  }
+}
+
+const std::vector<Move>& Edges::moves(int cell, int element, int evidence_state) {
+  if (cell != cell_) {
+    cell_ = cell;
+    weights_.clear();
+    known_count_ = 0;
+    prior_count_ = 0;
+  }
+  for (std::size_t i = 0; i < known_count_; ++i)
+    if (known_[i].element == element && known_[i].evidence_state == evidence_state) return known_[i].moves;
+  if (known_count_ == known_.size()) known_.emplace_back();
+  Known& known = known_[known_count_++];
+  known.element = element;
+  known.evidence_state = evidence_state;
+  known.moves.clear();
+
+  const Prior& prior_masses = prior(element);
+  const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
+  const int next = evidence_state / 2;
+  for (const WidthMass& mass : prior_masses.masses) {
+    if (evidence_state % 2 == 0) {
+      add(known.moves, evidence_state, mass.first, mass.mass, mass.mass, -1);
+      add_matches(known.moves, placed, mass, next);
+      continue;
+    }
+    const PreparedEvidence& e = lattice_.evidence().rooms()[static_cast<std::size_t>(next)];
+    std::vector<double> closed = mass.mass;
+    for (std::size_t i = 0; i < closed.size(); ++i)
+      closed[i] *= lattice_.evidence().reading(
+          e, Reading::closes, element_extent(lattice_.grid(), cell_, mass.first + static_cast<int>(i)));
+    add(known.moves, 2 * (next + 1), mass.first, closed, closed, next);
+  }
+  return known.moves;
+}
+
+}  // namespace gramap
