@@ -25,13 +25,16 @@ CellRange covered(const ElementRoom& room, const Grid& grid, int width) {
 }
 
 bool is_whole(const ElementRoom& room) {
-  return room.start.constant == 0 && room.start.slope == 0 && room.width.constant == 0 && room.width.slope == 1;
+  return room.start.constant == 0 && room.start.slope == 0 && room.width.constant == 0 &&
+         room.width.slope == 1;
 }
 
 /// Rooms of one type and one stretch of the depth.
 using Channel = std::tuple<int, double, double>;
 
-Channel channel_of(const ElementRoom& room) { return {room.type, room.depth_start_m, room.depth_m}; }
+Channel channel_of(const ElementRoom& room) {
+  return {room.type, room.depth_start_m, room.depth_m};
+}
 
 bool covers_depth(const Channel& channel, double depth_m) {
   const auto [type, start, extent] = channel;
@@ -57,7 +60,8 @@ std::vector<double> type_coverage(const Lattice& lattice, const NodeTable& forwa
         const Element& element = lattice.row().elements[static_cast<std::size_t>(arc.element)];
         for (const Move& move : edges.moves(cell, arc.element, e)) {
           const double* weights = edges.sum(move);
-          const double* target = &backward.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
+          const double* target =
+              &backward.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
           double scale_of = 0;
           double factor = 0;
           for (int i = 0; i < move.count; ++i) {

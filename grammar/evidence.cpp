@@ -19,7 +19,9 @@ double gauss(double x, double mean, double sd) {
   return std::exp(-0.5 * u * u) / (sd * std::sqrt(2 * std::numbers::pi));
 }
 
-double cumulative(double u) { return 0.5 * std::erfc(-u / std::numbers::sqrt2); }
+double cumulative(double u) {
+  return 0.5 * std::erfc(-u / std::numbers::sqrt2);
+}
 
 /// Density of the dimension across the line.
 double across_density(double value_m, double sd_m, double depth_m, double range_m) {
@@ -31,7 +33,8 @@ int to_cell(double position_m, const Grid& grid) {
   return static_cast<int>(std::lround(std::clamp(position_m / grid.step_m, -1e9, 1e9)));
 }
 
-/// The cells at which a room may start that explains the evidence in one of the ways `Evidence::reading` knows.
+/// The cells at which a room may start that explains the evidence in one of the ways `Evidence::reading`
+/// knows.
 void set_window(PreparedEvidence& e, const Grid& grid) {
   if (!e.has_centre) {
     e.first_start = 0;
@@ -39,7 +42,8 @@ void set_window(PreparedEvidence& e, const Grid& grid) {
     return;
   }
   const double wall_gate = kGateSigmas * e.wall_sd_m;
-  double first = std::min(e.start_wall_m() - wall_gate, e.end_wall_m() - wall_gate - e.width_m - kMostCutOff_m);
+  double first =
+      std::min(e.start_wall_m() - wall_gate, e.end_wall_m() - wall_gate - e.width_m - kMostCutOff_m);
   double last = std::max(e.start_wall_m() + wall_gate, e.end_wall_m() + wall_gate - e.width_m);
   const auto widen = [&](double width, double sd) {
     const double reach = kGateSigmas * (e.centre_sd_m + 0.5 * sd);
@@ -179,7 +183,8 @@ double Evidence::doors(int type, int first_cell, int last_cell) const {
   const auto first = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(first_cell)]);
   const auto last = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(last_cell)]);
   const double length_m = grid_.cells * grid_.step_m;
-  const double seen_m = visible_[static_cast<std::size_t>(last_cell)] - visible_[static_cast<std::size_t>(first_cell)];
+  const double seen_m =
+      visible_[static_cast<std::size_t>(last_cell)] - visible_[static_cast<std::size_t>(first_cell)];
   const double seen = std::clamp(seen_m / (room.width_m() + grid_.wall_m), 0.0, 1.0);
   const double none = options_.doorless_share + (1 - options_.doorless_share) * (1 - seen);
   if (first == last) return none;

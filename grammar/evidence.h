@@ -49,13 +49,13 @@ struct PreparedEvidence {
   bool has_centre = false;
   double centre_m = 0;
   double centre_sd_m = 0;
-  double wall_sd_m = 0;           ///< of either wall as read: centre -+ width / 2
+  double wall_sd_m = 0;             ///< of either wall as read: centre -+ width / 2
   std::vector<double> type_factor;  ///< by room type; last: background
-  double type_even = 1;  ///< the factor of a type that nothing is known of
-  double aside = 0;      ///< weight of belonging to no room
-  double depth_factor = 1;        ///< density of `other` across the line
+  double type_even = 1;             ///< the factor of a type that nothing is known of
+  double aside = 0;                 ///< weight of belonging to no room
+  double depth_factor = 1;          ///< density of `other` across the line
   double swapped_depth_factor = 0;  ///< density of `width` across the line
-  int first_start = 0;            ///< cells at which a room may start that explains it
+  int first_start = 0;              ///< cells at which a room may start that explains it
   int last_start = 0;
 
   double start_wall_m() const { return centre_m - 0.5 * width_m; }
@@ -77,8 +77,8 @@ class Evidence {
     return type < 0 ? e.type_factor.back() : e.type_factor[static_cast<std::size_t>(type)];
   }
 
-  /// Likelihood of the doors seen in the hallway wall between two cells' edges (the room takes [first, last)),
-  /// for a room of this type there.
+  /// Likelihood of the doors seen in the hallway wall between two cells' edges (the room takes [first,
+  /// last)), for a room of this type there.
   double doors(int type, int first_cell, int last_cell) const;
   bool has_doors() const { return !visible_.empty(); }
 
@@ -93,7 +93,7 @@ class Evidence {
   std::vector<PreparedEvidence> rooms_;
   std::vector<DoorEvidence> doors_;
   std::vector<int> doors_before_;  // [cell]: doors whose centre lies before the cell's edge
-  std::vector<double> visible_;    // [cell]: metres of visible hallway wall before the cell's edge; empty: none
+  std::vector<double> visible_;  // [cell]: metres of visible hallway wall before the cell's edge; empty: none
 };
 
 }  // namespace gramap

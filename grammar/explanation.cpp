@@ -22,8 +22,7 @@ Explained best_reading(const Lattice& lattice, const PathStep& step, int j) {
   for (std::size_t r = 0; r < element.rooms.size(); ++r) {
     const Extent room = room_extent(lattice.grid(), step.cell, step.width, element.rooms[r]);
     for (const Reading how : {Reading::whole, Reading::swapped, Reading::start_only, Reading::end_only}) {
-      const double weight =
-          evidence.reading(e, how, room) * evidence.type_factor(e, element.rooms[r].type);
+      const double weight = evidence.reading(e, how, room) * evidence.type_factor(e, element.rooms[r].type);
       if (weight <= most) continue;
       most = weight;
       best.how = how;
@@ -124,14 +123,14 @@ WallPosition wall_position(const Affine& offset, double wall_m) {
   return {1 - offset.slope, offset.slope, offset.constant - offset.slope * wall_m};
 }
 
-void add_evidence(WallProblem& problem, const Lattice& lattice, const PathStep& step, const Explained& explained,
-                  std::size_t i) {
+void add_evidence(WallProblem& problem, const Lattice& lattice, const PathStep& step,
+                  const Explained& explained, std::size_t i) {
   const PreparedEvidence& e = lattice.evidence().rooms()[static_cast<std::size_t>(explained.evidence)];
   const double wall_m = lattice.grid().wall_m;
   const ElementRoom& room = placed_element(lattice, step).rooms[static_cast<std::size_t>(explained.room)];
   WallPosition start = wall_position(room.start, wall_m);
-  WallPosition end = wall_position({room.start.constant + room.width.constant, room.start.slope + room.width.slope},
-                                   wall_m);
+  WallPosition end =
+      wall_position({room.start.constant + room.width.constant, room.start.slope + room.width.slope}, wall_m);
   if (explained.how == Reading::opens) start = wall_position({0, 0}, wall_m);
   if (explained.how == Reading::closes) end = wall_position({0, 1}, wall_m);
   const auto add = [&](double a, double b, double value, double sd) {

@@ -20,10 +20,10 @@ std::vector<std::vector<Explained>> explain(const Lattice& lattice, const std::v
 /// The element that a step places.
 const Element& placed_element(const Lattice& lattice, const PathStep& step);
 
-/// Where each element starts, metres along the line, and, last, the length and one wall more: the most probable
-/// widths off the grid for this sequence of elements and this explanation. Widths are normal around their
-/// types' (the component that fits best on the grid) and around what was observed; what is sought are the
-/// positions of the walls between, so the sum of widths and walls is the length by construction, and the
+/// Where each element starts, metres along the line, and, last, the length and one wall more: the most
+/// probable widths off the grid for this sequence of elements and this explanation. Widths are normal around
+/// their types' (the component that fits best on the grid) and around what was observed; what is sought are
+/// the positions of the walls between, so the sum of widths and walls is the length by construction, and the
 /// least-squares problem is tridiagonal. Widths stay positive.
 std::vector<double> refine(const Lattice& lattice, const std::vector<PathStep>& path,
                            const std::vector<std::vector<Explained>>& explained);

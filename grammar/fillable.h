@@ -10,7 +10,8 @@ namespace gramap {
 /// Whether some derivation fills a space like this one, of this clear length, exactly.
 bool can_fill(const RuleSet& rules, const SpaceProblem& problem, double length_m, double grid_m);
 
-/// The nearest length that can be filled, to 5 cm, within half and twice the space's own and at most 10 m away.
+/// The nearest length that can be filled, to 5 cm, within half and twice the space's own and at most 10 m
+/// away.
 std::optional<double> nearest_fillable_m(const RuleSet& rules, const SpaceProblem& problem,
                                          const FitOptions& options);
 

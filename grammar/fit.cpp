@@ -34,7 +34,8 @@ void check(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& 
     const bool other = !e.other_width_m || (*e.other_width_m > 0 && e.other_sigma_m > 0);
     const bool centre = !e.centre_m || (std::isfinite(*e.centre_m) && e.centre_sigma_m > 0);
     if (!width || !other || !centre)
-      fail("the observation of " + e.id + " has a width, position or standard deviation that is not positive");
+      fail("the observation of " + e.id +
+           " has a width, position or standard deviation that is not positive");
   }
   for (const DoorEvidence& door : problem.doors)
     if (!std::isfinite(door.centre_m) || !(door.sigma_m > 0))
@@ -47,8 +48,8 @@ void check(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& 
     if (rule.symbol == 0) names += (names.empty() ? "" : ", ") + rule.name;
   const std::optional<double> nearest = nearest_fillable_m(rules, problem, options);
   throw InputError({},
-                   "space " + problem.id + ": no layout of the rules of " + rules.symbols.front() + " (" + names +
-                       ") fills its " + metres(problem.length_m),
+                   "space " + problem.id + ": no layout of the rules of " + rules.symbols.front() + " (" +
+                       names + ") fills its " + metres(problem.length_m),
                    nearest ? "the nearest length that they can fill is " + metres(*nearest)
                            : "they fill no length near it; see `gramap check --lengths`");
 }
@@ -58,8 +59,9 @@ std::string rule_name(const RuleSet& rules, int rule) {
 }
 
 /// The rooms of a path. Inside a unit a room's walls follow the unit's: their deviations do, too.
-std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice, const std::vector<PathStep>& path,
-                                    const std::vector<double>& starts, const SequencePosterior& posterior,
+std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice,
+                                    const std::vector<PathStep>& path, const std::vector<double>& starts,
+                                    const SequencePosterior& posterior,
                                     const std::vector<std::vector<Explained>>& explained, double length_m) {
   std::vector<PlacedRoom> placed;
   const Grid& grid = lattice.grid();
@@ -71,7 +73,8 @@ std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice
     const double end = is_last ? length_m : starts[i + 1] - grid.wall_m;
     const SequencePosterior::Place& place = posterior.places[i];
     const auto deviation = [&](double slope) {  // of start + slope * width
-      const double variance = place.start_sd_m * place.start_sd_m + slope * slope * place.width_sd_m * place.width_sd_m +
+      const double variance = place.start_sd_m * place.start_sd_m +
+                              slope * slope * place.width_sd_m * place.width_sd_m +
                               2 * slope * place.covariance_m2;
       return std::sqrt(std::max(0.0, variance));
     };
@@ -87,7 +90,8 @@ std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice
       room.start_sigma_m = deviation(inner.start.slope);
       room.end_sigma_m = whole ? place.end_sd_m : deviation(inner.start.slope + inner.width.slope);
       room.rule = rule_name(rules, inner.rule);
-      for (const int rule : rules_down_to(derivation, derivation.placed_by[i])) room.rule_path.push_back(rule_name(rules, rule));
+      for (const int rule : rules_down_to(derivation, derivation.placed_by[i]))
+        room.rule_path.push_back(rule_name(rules, rule));
       if (room.rule_path.empty() || room.rule_path.back() != room.rule) room.rule_path.push_back(room.rule);
       room.depth_start_m = inner.depth_start_m;
       room.depth_m = inner.depth_m;
@@ -111,7 +115,8 @@ void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
       used[static_cast<std::size_t>(original)] = true;
       const std::string width = metres(problem.rooms[static_cast<std::size_t>(original)].width_m);
       if (e.how == Reading::opens)
-        fit.reinterpreted.push_back({original, "read as one room of " + width + ", but it is two: a wall was missed"});
+        fit.reinterpreted.push_back(
+            {original, "read as one room of " + width + ", but it is two: a wall was missed"});
       if (e.how == Reading::start_only || e.how == Reading::end_only)
         fit.reinterpreted.push_back(
             {original, "only the wall at its " + std::string(e.how == Reading::start_only ? "start" : "end") +
@@ -121,9 +126,10 @@ void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
   }
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i])
-      fit.set_aside.push_back({static_cast<int>(i), "no room of the most probable layout explains its width of " +
-                                                        metres(problem.rooms[i].width_m) +
-                                                        (problem.rooms[i].centre_m ? " at its place" : " in its order")});
+      fit.set_aside.push_back(
+          {static_cast<int>(i), "no room of the most probable layout explains its width of " +
+                                    metres(problem.rooms[i].width_m) +
+                                    (problem.rooms[i].centre_m ? " at its place" : " in its order")});
 }
 
 }  // namespace
@@ -131,8 +137,7 @@ void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
 SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
   check(rules, problem, options);
   const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, options.grid_m);
-  const CompiledRow compiled =
-      compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
+  const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
   if (compiled.fault)
     throw InputError({}, "space " + problem.id + ": rule " + rule_name(rules, compiled.fault->rule) + ": " +
                              compiled.fault->message);

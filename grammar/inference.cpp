@@ -32,8 +32,8 @@ void rescale_ahead(const Lattice& lattice, NodeTable& table, int cell) {
     table.log_scale[n] += std::log(most);
 }
 
-/// Scale of a completion at `cell`, chosen after the largest value that lies ahead, so that the sums at `cell`
-/// are in range: completions are computed from the end, cell by cell.
+/// Scale of a completion at `cell`, chosen after the largest value that lies ahead, so that the sums at
+/// `cell` are in range: completions are computed from the end, cell by cell.
 double scale_behind(const Lattice& lattice, const NodeTable& table, int cell) {
   const auto next = static_cast<std::size_t>(cell) + 1;
   const double most = largest(lattice, table, cell + 1);
@@ -46,9 +46,11 @@ class ScaleFactors {
  public:
   const double* operator()(const NodeTable& table, const Move& move, double scale_here) {
     const auto first = table.log_scale.begin() + move.first_cell;
-    if (std::all_of(first, first + move.count, [&](double scale) { return scale == scale_here; })) return nullptr;
+    if (std::all_of(first, first + move.count, [&](double scale) { return scale == scale_here; }))
+      return nullptr;
     factors_.clear();
-    for (auto scale = first; scale != first + move.count; ++scale) factors_.push_back(std::exp(*scale - scale_here));
+    for (auto scale = first; scale != first + move.count; ++scale)
+      factors_.push_back(std::exp(*scale - scale_here));
     return factors_.data();
   }
 
@@ -109,7 +111,8 @@ NodeTable backward(const Lattice& lattice, const NodeTable& forward) {
         double part = 0;
         for (const Move& move : edges.moves(cell, arc.element, e)) {
           const double* weights = edges.sum(move);
-          const double* target = &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
+          const double* target =
+              &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
           const double* scales = factors(table, move, scale);
           for (int i = 0; i < move.count; ++i)
             part += weights[i] * target[i] * (scales != nullptr ? scales[i] : 1);
@@ -122,7 +125,8 @@ NodeTable backward(const Lattice& lattice, const NodeTable& forward) {
   return table;
 }
 
-std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward) {
+std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward,
+                                    const NodeTable& backward) {
   std::vector<double> posteriors(lattice.nodes(), 0);
   const double total = log_total(lattice, forward);
   for (int cell = 0; cell <= lattice.grid().cells; ++cell) {
@@ -152,10 +156,12 @@ NodeTable best_completion(const Lattice& lattice, const std::vector<double>& pos
       for (const Arc& arc : lattice.arcs(state, cell)) {
         for (const Move& move : edges.moves(cell, arc.element, e)) {
           const double* weights = edges.max(move);
-          const double* target = &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
+          const double* target =
+              &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
           const double* scales = factors(table, move, scale);
           for (int i = 0; i < move.count; ++i)
-            most = std::max(most, arc.probability * weights[i] * target[i] * (scales != nullptr ? scales[i] : 1));
+            most = std::max(most,
+                            arc.probability * weights[i] * target[i] * (scales != nullptr ? scales[i] : 1));
         }
       }
       table.value[node] = most;
@@ -179,7 +185,8 @@ std::vector<PathStep> best_path(const Lattice& lattice, const NodeTable& best) {
     for (std::size_t a = 0; a < arcs.size(); ++a) {
       for (const Move& move : edges.moves(at.cell, arcs[a].element, at.evidence_state)) {
         const double* weights = edges.max(move);
-        const double* target = &best.value[lattice.node(move.first_cell, arcs[a].target, move.target_evidence)];
+        const double* target =
+            &best.value[lattice.node(move.first_cell, arcs[a].target, move.target_evidence)];
         const double* scales = factors(best, move, scale);
         for (int i = 0; i < move.count; ++i) {
           const double value =

@@ -48,7 +48,8 @@ inline constexpr double kDeadPosterior = 1e-15;
 NodeTable backward(const Lattice& lattice, const NodeTable& forward);
 
 /// Posterior probability of passing through each node, by the two sums.
-std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward);
+std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward,
+                                    const NodeTable& backward);
 
 /// The best completion of each node with a posterior of at least kDeadPosterior.
 NodeTable best_completion(const Lattice& lattice, const std::vector<double>& posteriors);

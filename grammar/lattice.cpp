@@ -10,7 +10,9 @@ namespace {
 constexpr double kCoarseStep_m = 0.1;  // of rooms of any width, where no evidence asks for better
 constexpr double kFineSigmas = 4;      // what counts as near an evidence
 
-double cumulative(double u) { return 0.5 * std::erfc(-u / std::numbers::sqrt2); }
+double cumulative(double u) {
+  return 0.5 * std::erfc(-u / std::numbers::sqrt2);
+}
 
 /// Adds `weight` x the mass of a normal to stretches sorted by their first width, merging those that touch.
 void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& normal, const Grid& grid,
@@ -19,8 +21,10 @@ void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& 
   const double reach = kMassSigmas * normal.sd_m;
   const auto cells = [&](double width_m) { return (width_m + grid.wall_m) / h; };
   const int least = std::max(1, static_cast<int>(std::floor(grid.wall_m / h)) + 1);
-  const int first = std::max(least, static_cast<int>(std::lround(std::max(0.0, cells(normal.mean_m - reach)))));
-  const int last = std::min<int>(longest, static_cast<int>(std::lround(std::min(1e8, cells(normal.mean_m + reach)))));
+  const int first =
+      std::max(least, static_cast<int>(std::lround(std::max(0.0, cells(normal.mean_m - reach)))));
+  const int last =
+      std::min<int>(longest, static_cast<int>(std::lround(std::min(1e8, cells(normal.mean_m + reach)))));
   if (last < first) return;
   WidthMass made{first, {}};
   double before = cumulative((grid.width_m(first) - 0.5 * h - normal.mean_m) / normal.sd_m);
@@ -55,8 +59,7 @@ void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& 
 std::vector<WidthMass> mixture_mass(const Mixture& mixture, const Grid& grid) {
   std::vector<WidthMass> stretches;
   for (const Mixture::Component& component : mixture.components)
-    if (component.weight > 0)
-      add_normal(stretches, component.weight, component.normal, grid, grid.cells);
+    if (component.weight > 0) add_normal(stretches, component.weight, component.normal, grid, grid.cells);
   return stretches;
 }
 
@@ -83,8 +86,10 @@ Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence)
   fine_before_.assign(static_cast<std::size_t>(n) + 2, 0);
   const auto mark = [&](double position_m, double sd_m) {
     const double reach = kFineSigmas * sd_m;
-    const int first = std::clamp(static_cast<int>(std::floor(std::clamp((position_m - reach) / grid.step_m, -1e8, 1e8))), 0, n + 1);
-    const int last = std::clamp(static_cast<int>(std::ceil(std::clamp((position_m + reach) / grid.step_m, -1e8, 1e8))), -1, n);
+    const int first = std::clamp(
+        static_cast<int>(std::floor(std::clamp((position_m - reach) / grid.step_m, -1e8, 1e8))), 0, n + 1);
+    const int last = std::clamp(
+        static_cast<int>(std::ceil(std::clamp((position_m + reach) / grid.step_m, -1e8, 1e8))), -1, n);
     for (int i = first; i <= last; ++i) fine_before_[static_cast<std::size_t>(i) + 1] = 1;
   };
   for (const PreparedEvidence& e : rooms) {
@@ -115,7 +120,8 @@ Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence)
     const int opened = e->first_start + 1;
     int closing = opened - 1;
     if (e->has_centre)
-      closing = static_cast<int>(std::clamp((e->end_wall_m() + kGateSigmas * e->wall_sd_m) / grid.step_m, 0.0, n - 1.0));
+      closing = static_cast<int>(
+          std::clamp((e->end_wall_m() + kGateSigmas * e->wall_sd_m) / grid.step_m, 0.0, n - 1.0));
     first_cell_.push_back(opened);
     last_cell_.push_back(std::max(opened - 1, closing));
   }
@@ -167,7 +173,8 @@ std::vector<WidthMass> Lattice::uniform_mass(const Element& element, int cell) c
   for (int begin = first; begin <= end; begin += coarse) {
     const int stop = std::min(begin + coarse - 1, last);
     if (coarse == 1 || needs_fine_steps(cell, begin, stop)) {
-      for (int k = begin; k <= std::min(stop, end); ++k) mass.mass[static_cast<std::size_t>(k - first)] = fine;
+      for (int k = begin; k <= std::min(stop, end); ++k)
+        mass.mass[static_cast<std::size_t>(k - first)] = fine;
     } else if ((begin + stop) / 2 <= end) {
       mass.mass[static_cast<std::size_t>((begin + stop) / 2 - first)] = fine * (stop - begin + 1);
     }
@@ -203,7 +210,8 @@ Extent room_extent(const Grid& grid, int cell, int width, const ElementRoom& roo
   return {start, start + room.width.at(clear_m)};
 }
 
-double belongs(const Lattice& lattice, int cell, int width, const Element& element, const PreparedEvidence& e) {
+double belongs(const Lattice& lattice, int cell, int width, const Element& element,
+               const PreparedEvidence& e) {
   double sum = 0;
   for (const ElementRoom& room : element.rooms)
     sum += lattice.evidence().type_factor(e, room.type) *
@@ -300,7 +308,8 @@ void Edges::add_matches(std::vector<Move>& moves, const Element& element, const 
         if (first < 0) first = static_cast<int>(i);
         last = static_cast<int>(i);
       }
-      const double opens = lattice_.evidence().reading(e, Reading::opens, element_extent(lattice_.grid(), cell_, 1));
+      const double opens =
+          lattice_.evidence().reading(e, Reading::opens, element_extent(lattice_.grid(), cell_, 1));
       if (opens > 0) {
         std::vector<double> opened_sum = sum;
         std::vector<double> opened_max = max;

@@ -1,13 +1,13 @@
-// The layouts of a space and their evidence as one lattice: nodes (cell n, row state, evidence state), edges =
-// one element placed from cell n to a later one. An edge's weight is the probability of the derivation's steps
-// x the element's width mass x the doors in it x the evidence that it explains; a path's weight is the joint
-// probability of layout, association and evidence. Every algorithm of the fit and of derivation is a pass over
-// these edges.
+// The layouts of a space and their evidence as one lattice: nodes (cell n, row state, evidence state), edges
+// = one element placed from cell n to a later one. An edge's weight is the probability of the derivation's
+// steps x the element's width mass x the doors in it x the evidence that it explains; a path's weight is the
+// joint probability of layout, association and evidence. Every algorithm of the fit and of derivation is a
+// pass over these edges.
 //
 // Evidence state 2j: evidence j is the next one to explain; 2j+1: the last room and the next one were read as
 // evidence j together. A room explains none, one or several of the next evidences, the last of them for sure;
-// those skipped on the way belong to no room. Evidence that no room starting at a cell or later can explain is
-// skipped there, so that each association is exactly one path.
+// those skipped on the way belong to no room. Evidence that no room starting at a cell or later can explain
+// is skipped there, so that each association is exactly one path.
 #pragma once
 
 #include <deque>
@@ -60,7 +60,8 @@ class Lattice {
   std::size_t node(int cell, int state, int evidence_state) const {
     const auto e = static_cast<std::size_t>(evidence_state);
     const auto length = static_cast<std::size_t>(last_cell_[e] - first_cell_[e] + 1);
-    return offset_[e] + static_cast<std::size_t>(state) * length + static_cast<std::size_t>(cell - first_cell_[e]);
+    return offset_[e] + static_cast<std::size_t>(state) * length +
+           static_cast<std::size_t>(cell - first_cell_[e]);
   }
   int end_evidence() const { return evidence_states() - 1; }
 
@@ -86,7 +87,8 @@ class Lattice {
   Grid grid_;
   const Evidence& evidence_;
   std::vector<std::vector<WidthMass>> masses_;  // of mixtures, by element
-  std::vector<int> fine_before_;   // [cell]: cells before it where walls may be known to better than a coarse step
+  std::vector<int>
+      fine_before_;  // [cell]: cells before it where walls may be known to better than a coarse step
   std::vector<std::pair<int, int>> fine_widths_;  // of background rooms
   std::vector<int> first_cell_;
   std::vector<int> last_cell_;
@@ -135,7 +137,8 @@ class Edges {
 
 /// Weight of evidence `e` belonging to the element when it takes `width` cells from `cell`: any of its rooms,
 /// all alike.
-double belongs(const Lattice& lattice, int cell, int width, const Element& element, const PreparedEvidence& e);
+double belongs(const Lattice& lattice, int cell, int width, const Element& element,
+               const PreparedEvidence& e);
 
 /// Clear extent of the element's room, or of the whole element.
 Extent room_extent(const Grid& grid, int cell, int width, const ElementRoom& room);

@@ -12,8 +12,8 @@ namespace gramap {
 namespace {
 
 // Codes for rooms in contexts, besides indices into RuleSet::rooms.
-constexpr int kEnd = -2;       // an end of the space
-constexpr int kAny = -3;       // no requirement
+constexpr int kEnd = -2;        // an end of the space
+constexpr int kAny = -3;        // no requirement
 constexpr int kUntracked = -4;  // a room that no left context asks for
 
 constexpr std::size_t kMostStates = 20000;
@@ -24,9 +24,10 @@ constexpr int kDeepestRewriting = 64;
 struct Cell {
   enum class Kind { symbol, items, repeat, require };
   Kind kind = Kind::symbol;
-  const std::vector<Item>* row = nullptr;  // items: (*row)[index], then the rest of *row; repeat: (*row)[index]
-  int index = 0;  // symbol: which; require: the room's code; repeat and items: see above
-  int count = 0;  // repeat: times placed so far
+  const std::vector<Item>* row =
+      nullptr;             // items: (*row)[index], then the rest of *row; repeat: (*row)[index]
+  int index = 0;           // symbol: which; require: the room's code; repeat and items: see above
+  int count = 0;           // repeat: times placed so far
   bool has_scope = false;  // items: relative and floating sizes refer to what is left of the space
   int rule = -1;           // whose items they are
   int next = 0;
@@ -44,7 +45,9 @@ struct Configuration {
   auto operator<=>(const Configuration&) const = default;
 };
 
-int code(const SymbolRef& ref) { return ref.kind == SymbolRef::Kind::end ? kEnd : ref.index; }
+int code(const SymbolRef& ref) {
+  return ref.kind == SymbolRef::Kind::end ? kEnd : ref.index;
+}
 
 /// Symbols that can come back when they are rewritten.
 std::vector<bool> recursive_symbols(const RuleSet& rules) {
@@ -131,8 +134,9 @@ class Compiler {
   [[noreturn]] void fail(int rule, const std::string& message) const { throw RowFaultError{{rule, message}}; }
 
   [[noreturn]] void not_a_row(int rule) const {
-    fail(rule, "this recursion cannot be reduced to a row of rooms: a symbol that recurs has to be the last "
-               "item of its rule");
+    fail(rule,
+         "this recursion cannot be reduced to a row of rooms: a symbol that recurs has to be the last "
+         "item of its rule");
   }
 
   /// Nothing but requirements follows: the head has all that is left of the space.
@@ -146,7 +150,8 @@ class Compiler {
 
   void expand(const Configuration& c, double probability, int depth) {
     if (c.list == 0 || probability <= 0) return;
-    if (depth > kDeepestRewriting) fail(current_rule_, "this rule comes back to its symbol without placing a room");
+    if (depth > kDeepestRewriting)
+      fail(current_rule_, "this rule comes back to its symbol without placing a room");
     const Cell cell = cells_[static_cast<std::size_t>(c.list)];
     Configuration rest = c;
     switch (cell.kind) {
@@ -255,7 +260,8 @@ class Compiler {
         Cell required{Cell::Kind::require};
         required.index = code(*rule.right);
         required.rule = r;
-        const bool said = next.list != 0 && cells_[static_cast<std::size_t>(next.list)].kind == Cell::Kind::require &&
+        const bool said = next.list != 0 &&
+                          cells_[static_cast<std::size_t>(next.list)].kind == Cell::Kind::require &&
                           cells_[static_cast<std::size_t>(next.list)].index == required.index;
         if (!said) next.list = push(required, next.list);
       }
@@ -331,8 +337,9 @@ class Compiler {
     Element element;
     if (item.size.kind == Size::Kind::relative || item.size.kind == Size::Kind::floating) {
       if (!cell.has_scope)
-        fail(cell.rule, "a relative or floating size needs a scope of known length: its rule has to be used in "
-                        "last place, or in an item that has a size");
+        fail(cell.rule,
+             "a relative or floating size needs a scope of known length: its rule has to be used in "
+             "last place, or in an item that has a size");
       element.kind = Element::Width::share;
       element.share = share_of_rest(rules_, *cell.row, static_cast<std::size_t>(cell.index), cell.rule);
     } else {

@@ -85,9 +85,9 @@ struct Row {
   std::vector<double> accept;  ///< probability that the derivation ends in this state when the space is full
 };
 
-/// Whether an item is written out in the row (a symbol is rewritten, a repeat repeated, a nested split along the
-/// row opened) rather than placed as one element. `takes_rest`: it is the last item of a row that has all that is
-/// left of the space.
+/// Whether an item is written out in the row (a symbol is rewritten, a repeat repeated, a nested split along
+/// the row opened) rather than placed as one element. `takes_rest`: it is the last item of a row that has all
+/// that is left of the space.
 bool is_written_out(const Item& item, bool takes_rest);
 
 /// Why rules cannot be turned into a row.

@@ -38,8 +38,12 @@ class Sequence {
  public:
   Sequence(const Lattice& lattice, const std::vector<double>& posteriors, const NodeTable& completions,
            const std::vector<PathStep>& path)
-      : lattice_(lattice), posteriors_(posteriors), completions_(completions), edges_(lattice),
-        scratch_(lattice.nodes(), 0), path_(path) {
+      : lattice_(lattice),
+        posteriors_(posteriors),
+        completions_(completions),
+        edges_(lattice),
+        scratch_(lattice.nodes(), 0),
+        path_(path) {
     std::vector<ElementLook> looks;
     for (const Element& element : lattice.row().elements) looks.push_back(look(element));
     for (const PathStep& step : path) {
@@ -125,7 +129,8 @@ class Sequence {
           if (!fits_[i][static_cast<std::size_t>(arc.element)]) continue;
           for (const Move& move : edges_.moves(from.cell, arc.element, from.evidence_state)) {
             const double* weights = edges_.sum(move);
-            const double* target = &scratch_[lattice_.node(move.first_cell, arc.target, move.target_evidence)];
+            const double* target =
+                &scratch_[lattice_.node(move.first_cell, arc.target, move.target_evidence)];
             for (int k = 0; k < move.count; ++k) {
               const double p = arc.probability * weights[k] * target[k];
               if (p <= 0) continue;
@@ -177,7 +182,8 @@ ElementLook look(const Element& element) {
 }
 
 SequencePosterior sequence_posterior(const Lattice& lattice, const NodeTable& backward,
-                                     const std::vector<double>& posteriors, const std::vector<PathStep>& path) {
+                                     const std::vector<double>& posteriors,
+                                     const std::vector<PathStep>& path) {
   return Sequence(lattice, posteriors, backward, path).run();
 }
 

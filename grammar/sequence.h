@@ -30,6 +30,7 @@ struct SequencePosterior {
 };
 
 SequencePosterior sequence_posterior(const Lattice& lattice, const NodeTable& backward,
-                                     const std::vector<double>& posteriors, const std::vector<PathStep>& path);
+                                     const std::vector<double>& posteriors,
+                                     const std::vector<PathStep>& path);
 
 }  // namespace gramap

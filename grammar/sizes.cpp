@@ -5,7 +5,9 @@
 namespace gramap {
 namespace {
 
-[[noreturn]] void fail(int rule, const std::string& message) { throw RowFaultError{{rule, message}}; }
+[[noreturn]] void fail(int rule, const std::string& message) {
+  throw RowFaultError{{rule, message}};
+}
 
 /// Sums over some items of a row: what they take, by kind of size.
 struct Demand {
@@ -54,9 +56,9 @@ Mixture side_by_side(const std::vector<Mixture>& parts, double wall_m) {
     Mixture next;
     for (const Mixture::Component& a : sum.components)
       for (const Mixture::Component& b : part.components)
-        next.components.push_back({a.weight * b.weight,
-                                   {a.normal.mean_m + wall_m + b.normal.mean_m,
-                                    std::hypot(a.normal.sd_m, b.normal.sd_m)}});
+        next.components.push_back(
+            {a.weight * b.weight,
+             {a.normal.mean_m + wall_m + b.normal.mean_m, std::hypot(a.normal.sd_m, b.normal.sd_m)}});
     sum = next;
   }
   return sum;
@@ -64,8 +66,7 @@ Mixture side_by_side(const std::vector<Mixture>& parts, double wall_m) {
 
 Mixture own_density(const RuleSet& rules, const Item& item, int rule) {
   if (item.size.kind == Size::Kind::absolute) return with_tolerance(item.size.width);
-  if (item.size.kind != Size::Kind::own)
-    fail(rule, "a relative or floating size has no scope here");
+  if (item.size.kind != Size::Kind::own) fail(rule, "a relative or floating size has no scope here");
   switch (item.kind) {
     case Item::Kind::piece:
       if (item.ref.kind == SymbolRef::Kind::room)
@@ -108,8 +109,7 @@ Affine share_of_rest(const RuleSet& rules, const std::vector<Item>& row, std::si
   const double floated = all.floating > 0 ? before.floating / all.floating : 0;
   const double denominator = 1 - before.relative - floated * (1 - all.relative);
   if (denominator <= 1e-9) fail(rule, "the sizes before this one leave nothing of the scope");
-  const Affine scope{(before.absolute_m - floated * all.absolute_m - walls_m) / denominator,
-                     1 / denominator};
+  const Affine scope{(before.absolute_m - floated * all.absolute_m - walls_m) / denominator, 1 / denominator};
   const Size& size = row[index].size;
   if (size.kind == Size::Kind::relative) return {size.value * scope.constant, size.value * scope.slope};
   const double part = size.value / now.floating;

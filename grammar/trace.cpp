@@ -32,8 +32,10 @@ class Replay {
       if (pending_.empty()) throw std::logic_error("a derivation places more than its tree holds");
       const Pending head = pending_.back();
       if (head.is_begun_repeat) {
-        if (next_step().kind == DerivationStep::Kind::stop) pending_.pop_back();
-        else push(head.item().children, head.use, false);
+        if (next_step().kind == DerivationStep::Kind::stop)
+          pending_.pop_back();
+        else
+          push(head.item().children, head.use, false);
         continue;
       }
       if (head.row != nullptr && head.item().kind != Item::Kind::piece) {
@@ -46,7 +48,8 @@ class Replay {
           push(head.item().children, head.use, takes_rest);
         continue;
       }
-      const bool is_last = pending_.size() == 1 && (head.row == nullptr || head.index + 1 == head.row->size());
+      const bool is_last =
+          pending_.size() == 1 && (head.row == nullptr || head.index + 1 == head.row->size());
       if (head.row != nullptr && !is_written_out(head.item(), head.has_scope && is_last)) {
         pop_item();
         return head.use;
@@ -68,15 +71,18 @@ class Replay {
 
   void pop_item() {
     Pending& head = pending_.back();
-    if (head.row == nullptr || head.index + 1 == head.row->size()) pending_.pop_back();
-    else ++head.index;
+    if (head.row == nullptr || head.index + 1 == head.row->size())
+      pending_.pop_back();
+    else
+      ++head.index;
   }
 
   void rewrite(int rule, int caller) {
     const int symbol = rules_.rules[static_cast<std::size_t>(rule)].symbol;
     int parent = caller;
     for (int use = caller; use >= 0; use = trace_.uses[static_cast<std::size_t>(use)].parent)
-      if (rules_.rules[static_cast<std::size_t>(trace_.uses[static_cast<std::size_t>(use)].rule)].symbol == symbol)
+      if (rules_.rules[static_cast<std::size_t>(trace_.uses[static_cast<std::size_t>(use)].rule)].symbol ==
+          symbol)
         parent = trace_.uses[static_cast<std::size_t>(use)].parent;
     trace_.uses.push_back({rule, parent});
     push(rules_.rules[static_cast<std::size_t>(rule)].body, static_cast<int>(trace_.uses.size()) - 1,

@@ -7,8 +7,8 @@
 
 namespace gramap {
 
-/// The use of one rule. A symbol that recurs nests ever deeper; the turns of a recursion are shown side by side
-/// instead: a use's parent is the rule that the first turn was used in.
+/// The use of one rule. A symbol that recurs nests ever deeper; the turns of a recursion are shown side by
+/// side instead: a use's parent is the rule that the first turn was used in.
 struct RuleUse {
   int rule = 0;
   int parent = -1;  ///< into Trace::uses; -1: the start symbol

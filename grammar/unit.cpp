@@ -13,7 +13,9 @@ constexpr std::size_t kMostVariants = 1000;
 constexpr int kDeepestUnit = 32;
 constexpr double kFillSigmas = 4;  // how far sizes may stretch to fill their scope, in standard deviations
 
-[[noreturn]] void fail(int rule, const std::string& message) { throw RowFaultError{{rule, message}}; }
+[[noreturn]] void fail(int rule, const std::string& message) {
+  throw RowFaultError{{rule, message}};
+}
 
 /// a item as one stretch of its scope: its size, and the variance that it can give way with.
 struct Demand {
@@ -27,7 +29,8 @@ Demand moments(const Mixture& density) {
   const double mean = mean_m(density);
   double second = 0;
   for (const Mixture::Component& c : density.components)
-    second += c.weight * (c.normal.sd_m * c.normal.sd_m + (c.normal.mean_m - mean) * (c.normal.mean_m - mean));
+    second +=
+        c.weight * (c.normal.sd_m * c.normal.sd_m + (c.normal.mean_m - mean) * (c.normal.mean_m - mean));
   return {Demand::Kind::fixed, mean, second};
 }
 
@@ -39,11 +42,15 @@ struct Frame {
   double depth_m = -1;  // < 0: the whole depth of the space
 };
 
-Affine sum(const Affine& a, const Affine& b) { return {a.constant + b.constant, a.slope + b.slope}; }
-Affine scaled(const Affine& a, double factor) { return {a.constant * factor, a.slope * factor}; }
+Affine sum(const Affine& a, const Affine& b) {
+  return {a.constant + b.constant, a.slope + b.slope};
+}
+Affine scaled(const Affine& a, double factor) {
+  return {a.constant * factor, a.slope * factor};
+}
 
-/// Sizes of the pieces as functions of the scope's extent. When nothing floats, what is missing or too much is
-/// shared in proportion to the variances.
+/// Sizes of the pieces as functions of the scope's extent. When nothing floats, what is missing or too much
+/// is shared in proportion to the variances.
 std::vector<Affine> fill(const std::vector<Demand>& pieces, double wall_m, int rule) {
   const double walls_m = wall_m * static_cast<double>(pieces.size() - 1);
   double fixed = 0;
@@ -126,7 +133,8 @@ class Expander {
       sum += rule.probability;
     }
     if (sum <= 0)
-      fail(caller, "no rule of " + rules_.symbols[static_cast<std::size_t>(index)] + " applies inside this unit");
+      fail(caller,
+           "no rule of " + rules_.symbols[static_cast<std::size_t>(index)] + " applies inside this unit");
     std::vector<UnitVariant> variants;
     for (const int r : candidates) {
       const Rule& rule = rules_.rules[static_cast<std::size_t>(r)];
@@ -158,7 +166,8 @@ class Expander {
       if (counted && item.most < 0) fail(rule, "a repeat inside a unit needs a most");
       const int least = counted ? item.least : 1;
       const int most = counted ? item.most : 1;
-      const std::vector<Sequence> children = counted ? sequences(item.children, rule) : std::vector<Sequence>{};
+      const std::vector<Sequence> children =
+          counted ? sequences(item.children, rule) : std::vector<Sequence>{};
       for (int count = least; count <= most; ++count) {
         std::vector<Sequence> grown = made;
         for (Sequence& sequence : grown) sequence.probability /= most - least + 1;
@@ -212,7 +221,8 @@ class Expander {
                                  int depth) const {
     std::vector<UnitVariant> variants;
     for (const Sequence& sequence : sequences(items, rule)) {
-      if (sequence.items.empty()) fail(rule, "a split inside a unit may not be empty: it would leave its scope unfilled");
+      if (sequence.items.empty())
+        fail(rule, "a split inside a unit may not be empty: it would leave its scope unfilled");
       std::vector<Demand> demands;
       for (const Item* item : sequence.items) demands.push_back(demand(*item, axis, rule));
       const std::vector<Affine> sizes = fill(demands, rules_.inner_wall_m, rule);
@@ -264,7 +274,8 @@ class Expander {
       if (demands[i].kind == Demand::Kind::floating) floating += demands[i].value;
       if (demands[i].kind == Demand::Kind::fixed) residual -= demands[i].value;
       if (demands[i].kind == Demand::Kind::relative)
-        residual -= demands[i].value * (scope - rules_.inner_wall_m * static_cast<double>(demands.size() - 1));
+        residual -=
+            demands[i].value * (scope - rules_.inner_wall_m * static_cast<double>(demands.size() - 1));
       variance += demands[i].variance;
       positive = positive && sizes[i].at(scope) > 0;
     }

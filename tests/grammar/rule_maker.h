@@ -85,7 +85,8 @@ inline Rule rule(const std::string& name, int symbol, std::vector<Item> body, do
   return rule;
 }
 
-/// Cells of 2.8 m, doubles of 5.8 m and a WC of 1.8 m, in any order: a floor's space as the institute has them.
+/// Cells of 2.8 m, doubles of 5.8 m and a WC of 1.8 m, in any order: a floor's space as the institute has
+/// them.
 inline RuleSet office_rules() {
   RuleSet rules;
   rules.name = "office";
