@@ -90,6 +90,7 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     room.end_sigma_m = placed.end_sigma_m;
     room.type_probability = placed.type_probability;
     room.rule = placed.rule;
+    room.rule_path = placed.rule_path;
     room.height_m = fitted.height_m;
     // The last cut is the space's own end, the very same number.
     const bool last = &placed == &fit.best.rooms.back();

@@ -53,6 +53,7 @@ struct FittedRoom {
   std::optional<double> extracted_sigma_m;
   double type_probability = 1;
   std::string rule;
+  std::vector<std::string> rule_path;   ///< the rules from the start symbol down to `rule`
   std::vector<std::string> scans;  ///< the scan folders it was observed in
   std::vector<FittedOpening> openings;
   std::vector<FittedFurniture> furniture;
