@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include "grammar/explanation.h"
 
@@ -29,25 +27,22 @@ bool is_whole(const ElementRoom& room) {
          room.width.slope == 1;
 }
 
-/// Rooms of one type and one stretch of the depth.
-using Channel = std::tuple<int, double, double>;
-
-Channel channel_of(const ElementRoom& room) {
+CoverageChannel channel_of(const ElementRoom& room) {
   return {room.type, room.depth_start_m, room.depth_m};
 }
 
-bool covers_depth(const Channel& channel, double depth_m) {
-  const auto [type, start, extent] = channel;
-  return extent < 0 || depth_m < 0 || (start <= depth_m && depth_m < start + extent);
+bool covers_depth(const CoverageChannel& channel, double depth_m) {
+  if (channel.depth_m < 0 || depth_m < 0) return true;
+  return channel.depth_start_m <= depth_m && depth_m < channel.depth_start_m + channel.depth_m;
 }
 
 }  // namespace
 
-std::vector<double> type_coverage(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
-                                  const std::vector<double>& posteriors, const std::vector<PathStep>& path) {
+Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
+               const std::vector<double>& posteriors) {
   const Grid& grid = lattice.grid();
   const auto cells = static_cast<std::size_t>(grid.cells) + 1;
-  std::map<Channel, std::vector<double>> changes;  // of the probability from cell to cell
+  Coverage changes;  // first of the probability from cell to cell, then summed up
   for (const Element& element : lattice.row().elements)
     for (const ElementRoom& room : element.rooms) changes[channel_of(room)].assign(cells, 0);
 
@@ -88,15 +83,20 @@ std::vector<double> type_coverage(const Lattice& lattice, const NodeTable& forwa
   for (auto& [channel, change] : changes)
     for (std::size_t i = 1; i < cells; ++i) change[i] += change[i - 1];
 
+  return changes;
+}
+
+std::vector<double> type_probabilities(const Lattice& lattice, const Coverage& coverage,
+                                       const std::vector<PathStep>& path) {
   std::vector<double> probabilities;
   for (const PathStep& step : path) {
     for (const ElementRoom& room : placed_element(lattice, step).rooms) {
-      const CellRange range = covered(room, grid, step.width);
+      const CellRange range = covered(room, lattice.grid(), step.width);
       const int middle = step.cell + (range.begin + range.end) / 2;
       const double depth = room.depth_m < 0 ? -1 : room.depth_start_m + 0.5 * room.depth_m;
       double probability = 0;
-      for (const auto& [channel, covering] : changes)
-        if (std::get<0>(channel) == room.type && covers_depth(channel, depth))
+      for (const auto& [channel, covering] : coverage)
+        if (channel.type == room.type && covers_depth(channel, depth))
           probability += covering[static_cast<std::size_t>(middle)];
       probabilities.push_back(std::clamp(probability, 0.0, 1.0));
     }

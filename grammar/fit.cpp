@@ -60,10 +60,10 @@ std::string rule_name(const RuleSet& rules, int rule) {
 
 /// The rooms of a path. Inside a unit a room's walls follow the unit's: their deviations do, too.
 std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice,
-                                    const std::vector<PathStep>& path, const std::vector<double>& starts,
-                                    const SequencePosterior& posterior,
+                                    const SequencePosterior& posterior, const std::vector<double>& starts,
                                     const std::vector<std::vector<Explained>>& explained, double length_m) {
   std::vector<PlacedRoom> placed;
+  const std::vector<PathStep>& path = posterior.best;
   const Grid& grid = lattice.grid();
   const Trace derivation = trace(rules, lattice, path);
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -148,20 +148,27 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
   if (!std::isfinite(total)) refuse(rules, problem, options);
   const NodeTable behind = backward(lattice, before);
   const std::vector<double> posteriors = node_posteriors(lattice, before, behind);
-  const NodeTable best = best_completion(lattice, posteriors);
-  const std::vector<PathStep> path = best_path(lattice, best);
-
+  const auto sequences = most_probable_sequences(lattice, before, behind, posteriors,
+                                                 {std::max(0, options.alternatives) + 1, options.beam});
+  const Coverage coverage = cover(lattice, before, behind, posteriors);
   SpaceFit fit;
-  const auto explained = explain(lattice, path);
-  const std::vector<double> starts = refine(lattice, path, explained);
-  const SequencePosterior posterior = sequence_posterior(lattice, behind, posteriors, path);
-  fit.best.rooms = place_rooms(rules, lattice, path, starts, posterior, explained, problem.length_m);
-  fit.best.score = log_best(lattice, best);
-  fit.best.probability = std::exp(posterior.log_weight - total);
-  const std::vector<double> type_probabilities = type_coverage(lattice, before, behind, posteriors, path);
-  for (std::size_t i = 0; i < fit.best.rooms.size(); ++i)
-    fit.best.rooms[i].type_probability = type_probabilities[i];
-  report_evidence(problem, lattice, explained, fit);
+  for (const auto& sequence : sequences) {
+    const SequencePosterior posterior = sequence_posterior(lattice, *sequence);
+    const auto explained = explain(lattice, posterior.best);
+    const std::vector<double> starts = refine(lattice, posterior.best, explained);
+    Layout layout;
+    layout.rooms = place_rooms(rules, lattice, posterior, starts, explained, problem.length_m);
+    layout.score = sequence->log_weight;
+    layout.probability = std::min(1.0, std::exp(sequence->log_posterior));
+    const std::vector<double> probabilities = type_probabilities(lattice, coverage, posterior.best);
+    for (std::size_t i = 0; i < layout.rooms.size(); ++i) layout.rooms[i].type_probability = probabilities[i];
+    if (&sequence != &sequences.front()) {
+      fit.alternatives.push_back(std::move(layout));
+      continue;
+    }
+    fit.best = std::move(layout);
+    report_evidence(problem, lattice, explained, fit);
+  }
   return fit;
 }
 

@@ -1,5 +1,4 @@
-// The passes of the dynamic programme over a space's lattice: forward and backward sums, the best
-// completion of every node, the best path.
+// The passes of the dynamic programme over a space's lattice: forward and backward sums.
 #pragma once
 
 #include <vector>
@@ -50,12 +49,5 @@ NodeTable backward(const Lattice& lattice, const NodeTable& forward);
 /// Posterior probability of passing through each node, by the two sums.
 std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward,
                                     const NodeTable& backward);
-
-/// The best completion of each node with a posterior of at least kDeadPosterior.
-NodeTable best_completion(const Lattice& lattice, const std::vector<double>& posteriors);
-
-/// The most probable path, from the best completions; and ln of its weight.
-std::vector<PathStep> best_path(const Lattice& lattice, const NodeTable& best);
-double log_best(const Lattice& lattice, const NodeTable& best);
 
 }  // namespace gramap

@@ -82,6 +82,14 @@ Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence)
     }
   }
   longest_ = std::min(longest_, n);
+  shortest_ = n;
+  for (std::size_t i = 0; i < row.elements.size(); ++i) {
+    const Element& element = row.elements[i];
+    if (element.kind == Element::Width::share) shortest_ = 1;
+    if (element.kind == Element::Width::uniform)
+      shortest_ = std::min(shortest_, static_cast<int>((element.least_m + grid.wall_m) / grid.step_m));
+    for (const WidthMass& mass : masses_[i]) shortest_ = std::min(shortest_, mass.first);
+  }
 
   fine_before_.assign(static_cast<std::size_t>(n) + 2, 0);
   const auto mark = [&](double position_m, double sd_m) {

@@ -76,6 +76,8 @@ class Lattice {
   int reach(int cell) const { return reach_[static_cast<std::size_t>(cell)]; }
   /// The most cells that an edge spans.
   int longest() const { return longest_; }
+  /// The least cells that an edge spans.
+  int shortest() const { return shortest_; }
   /// Where a path begins: evidence that no room can explain is skipped with this weight.
   std::pair<int, double> start() const;
 
@@ -97,6 +99,7 @@ class Lattice {
   std::vector<std::size_t> offset_;
   std::size_t nodes_ = 0;
   int longest_ = 0;
+  int shortest_ = 1;
 };
 
 /// The edges that leave a cell; made when asked for, kept until another cell is asked for.

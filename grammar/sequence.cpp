@@ -2,31 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include "grammar/explanation.h"
 
 namespace gramap {
 namespace {
 
-constexpr double kNegligible = 1e-16;  // share of a layer below which its nodes are left out
-
-struct LayerNode {
-  int cell;
-  int state;
-  int evidence_state;
-  std::size_t node;
-  double sum;  // over all partial paths of the sequence's first elements, scaled so that a layer sums to 1
-};
-
-struct Range {
-  int first;
-  int last;
-};
-
-/// The moments of start x and width w over a layer's edges.
+/// The moments of start x and width w over the edges of one element.
 struct Moments {
   double weight = 0, x = 0, w = 0, xx = 0, ww = 0, xw = 0;
+
+  void add(double p, double start, double width) {
+    weight += p;
+    x += p * start;
+    w += p * width;
+    xx += p * start * start;
+    ww += p * width * width;
+    xw += p * start * width;
+  }
 };
 
 double deviation(double weight, double first, double second) {
@@ -36,155 +27,157 @@ double deviation(double weight, double first, double second) {
 
 class Sequence {
  public:
-  Sequence(const Lattice& lattice, const std::vector<double>& posteriors, const NodeTable& completions,
-           const std::vector<PathStep>& path)
-      : lattice_(lattice),
-        posteriors_(posteriors),
-        completions_(completions),
-        edges_(lattice),
-        scratch_(lattice.nodes(), 0),
-        path_(path) {
-    std::vector<ElementLook> looks;
-    for (const Element& element : lattice.row().elements) looks.push_back(look(element));
-    for (const PathStep& step : path) {
-      const ElementLook wanted = look(placed_element(lattice, step));
-      std::vector<bool>& fits = fits_.emplace_back();
-      for (const ElementLook& offered : looks) fits.push_back(offered == wanted);
-    }
+  Sequence(const Lattice& lattice, const Prefix& whole)
+      : lattice_(lattice), looks_(looks_of(lattice.row())), edges_(lattice), scratch_(lattice.nodes(), 0) {
+    for (const Prefix* prefix = &whole; prefix != nullptr; prefix = prefix->before.get())
+      prefixes_.push_back(prefix);
+    std::reverse(prefixes_.begin(), prefixes_.end());
   }
 
   SequencePosterior run() {
     SequencePosterior posterior;
-    posterior.log_weight = go_forward();
-    posterior.places.resize(path_.size());
+    posterior.places.resize(elements());
     go_backward(posterior);
+    trace_best(posterior);
     return posterior;
   }
 
  private:
-  double go_forward() {
-    const auto [start, weight] = lattice_.start();
-    layers_.push_back({{0, 0, start, lattice_.node(0, 0, start), 1}});
-    double log_weight = std::log(weight);
-    for (std::size_t i = 0; i < path_.size(); ++i) {
-      Range touched{lattice_.grid().cells + 1, -1};
-      for (const LayerNode& from : layers_[i]) {
-        for (const Arc& arc : lattice_.arcs(from.state, from.cell)) {
-          if (!fits_[i][static_cast<std::size_t>(arc.element)]) continue;
-          for (const Move& move : edges_.moves(from.cell, arc.element, from.evidence_state)) {
-            const double* weights = edges_.sum(move);
-            double* target = &scratch_[lattice_.node(move.first_cell, arc.target, move.target_evidence)];
-            for (int k = 0; k < move.count; ++k) target[k] += from.sum * arc.probability * weights[k];
-            touched = {std::min(touched.first, move.first_cell),
-                       std::max(touched.last, move.first_cell + move.count - 1)};
-          }
-        }
-      }
-      log_weight += std::log(collect(touched, i + 1 == path_.size()));
+  std::size_t elements() const { return prefixes_.size() - 1; }
+  const std::vector<LayerNode>& layer(std::size_t i) const { return prefixes_[i]->layer; }
+
+  /// Calls visit(arc index, move) for the edges from a node to the next element.
+  template <class Visit>
+  void for_each_move(std::size_t i, const LayerNode& from, Visit visit) {
+    const std::vector<Arc>& arcs = lattice_.arcs(from.state, from.cell);
+    for (std::size_t a = 0; a < arcs.size(); ++a) {
+      if (looks_[static_cast<std::size_t>(arcs[a].element)] != prefixes_[i + 1]->look) continue;
+      for (const Move& move : edges_.moves(from.cell, arcs[a].element, from.evidence_state)) visit(a, move);
     }
-    return log_weight;
   }
 
-  /// Makes a layer of what is in the scratch table; returns the sum that it was divided by.
-  double collect(Range touched, bool is_last) {
-    std::vector<LayerNode> layer;
-    double sum = 0;
-    double most = 0;
-    for (int cell = touched.first; cell <= touched.last; ++cell) {
-      const bool at_end = cell == lattice_.grid().cells;
-      for_each_node(lattice_, cell, [&](int e, int state, std::size_t node) {
-        double value = std::exchange(scratch_[node], 0);
-        if (at_end) value *= lattice_.row().accept[static_cast<std::size_t>(state)];
-        if (value <= 0 || posteriors_[node] < kDeadPosterior || at_end != is_last) return;
-        layer.push_back({cell, state, e, node, value});
-        sum += value;
-        most = std::max(most, promise(layer.back()));
-      });
-    }
-    std::erase_if(layer, [&](const LayerNode& node) { return promise(node) < kNegligible * most; });
-    for (LayerNode& node : layer) node.sum /= sum;
-    layers_.push_back(std::move(layer));
-    return sum;
+  const double* targets(const LayerNode& from, std::size_t arc, const Move& move) const {
+    const int state = lattice_.arcs(from.state, from.cell)[arc].target;
+    return &scratch_[lattice_.node(move.first_cell, state, move.target_evidence)];
   }
 
-  /// What the node's paths may still amount to, on one scale for a layer.
-  double promise(const LayerNode& node) const {
-    const auto n = static_cast<std::size_t>(node.cell);
-    const auto reference = static_cast<std::size_t>(path_[std::min(layers_.size(), path_.size() - 1)].cell);
-    return node.sum * completions_.value[node.node] *
-           std::exp(completions_.log_scale[n] - completions_.log_scale[reference]);
+  void fill(std::size_t i, const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) scratch_[layer(i)[k].node] = values[k];
+  }
+  void clear(std::size_t i) {
+    for (const LayerNode& node : layer(i)) scratch_[node.node] = 0;
   }
 
+  /// The weight of ending in each node of the last layer.
+  std::vector<double> acceptance() const {
+    std::vector<double> values;
+    for (const LayerNode& node : prefixes_.back()->layer)
+      values.push_back(lattice_.row().accept[static_cast<std::size_t>(node.state)]);
+    return values;
+  }
+
+  /// Completions of each layer's nodes within the sequence, summed for the moments and the best ones for the
+  /// best layout; each layer on a scale of its own.
   void go_backward(SequencePosterior& posterior) {
-    const Grid& grid = lattice_.grid();
-    for (const LayerNode& node : layers_.back()) scratch_[node.node] = 1;
-    for (std::size_t i = path_.size(); i-- > 0;) {
-      Moments m;
-      double most = 0;
-      std::vector<double> completions;
-      for (const LayerNode& from : layers_[i]) {
-        double all = 0;
-        const double x = (from.cell - path_[i].cell) * grid.step_m;
-        for (const Arc& arc : lattice_.arcs(from.state, from.cell)) {
-          if (!fits_[i][static_cast<std::size_t>(arc.element)]) continue;
-          for (const Move& move : edges_.moves(from.cell, arc.element, from.evidence_state)) {
-            const double* weights = edges_.sum(move);
-            const double* target =
-                &scratch_[lattice_.node(move.first_cell, arc.target, move.target_evidence)];
-            for (int k = 0; k < move.count; ++k) {
-              const double p = arc.probability * weights[k] * target[k];
-              if (p <= 0) continue;
-              const double w = (move.first_cell + k - from.cell - path_[i].width) * grid.step_m;
-              all += p;
-              m.w += from.sum * p * w;
-              m.ww += from.sum * p * w * w;
-              m.xw += from.sum * p * x * w;
-            }
-          }
-        }
-        m.weight += from.sum * all;
-        m.x += from.sum * all * x;
-        m.xx += from.sum * all * x * x;
-        completions.push_back(all);
-        most = std::max(most, all);
+    std::vector<double> sums = acceptance();
+    best_.assign(elements() + 1, {});
+    best_.back() = sums;
+    log_scale_.assign(elements() + 1, 0);
+    for (std::size_t i = elements(); i-- > 0;) {
+      fill(i + 1, sums);
+      sums = sum_layer(i, posterior);
+      fill(i + 1, best_[i + 1]);
+      for (const LayerNode& from : layer(i)) {
+        double most = 0;
+        for_each_move(i, from, [&](std::size_t arc, const Move& move) {
+          const double* weights = edges_.max(move);
+          const double* target = targets(from, arc, move);
+          const double probability = lattice_.arcs(from.state, from.cell)[arc].probability;
+          for (int k = 0; k < move.count; ++k) most = std::max(most, probability * weights[k] * target[k]);
+        });
+        best_[i].push_back(most);
       }
-      for (const LayerNode& node : layers_[i + 1]) scratch_[node.node] = 0;
-      for (std::size_t k = 0; k < layers_[i].size(); ++k)
-        scratch_[layers_[i][k].node] = completions[k] / most;
-      SequencePosterior::Place& place = posterior.places[i];
-      place.start_sd_m = deviation(m.weight, m.x, m.xx);
-      place.width_sd_m = deviation(m.weight, m.w, m.ww);
-      place.covariance_m2 = m.xw / m.weight - m.x / m.weight * m.w / m.weight;
-      place.end_sd_m = i + 1 < path_.size() ? posterior.places[i + 1].start_sd_m : 0;
+      clear(i + 1);
+      const double most = *std::max_element(best_[i].begin(), best_[i].end());
+      for (double& value : best_[i]) value /= most;
+      log_scale_[i] = log_scale_[i + 1] + std::log(most);
+    }
+    posterior.log_best = prefixes_.front()->log_weight + std::log(best_.front().front()) + log_scale_.front();
+  }
+
+  /// Needs the completions of layer i + 1 in the scratch table; returns those of layer i.
+  std::vector<double> sum_layer(std::size_t i, SequencePosterior& posterior) {
+    const Grid& grid = lattice_.grid();
+    const double start_cell = prefixes_[i]->mean_cell;
+    const double width_cells = prefixes_[i + 1]->mean_cell - start_cell;
+    Moments m;
+    std::vector<double> completions;
+    for (const LayerNode& from : layer(i)) {
+      double all = 0;
+      for_each_move(i, from, [&](std::size_t arc, const Move& move) {
+        const double* weights = edges_.sum(move);
+        const double* target = targets(from, arc, move);
+        const double probability = lattice_.arcs(from.state, from.cell)[arc].probability;
+        for (int k = 0; k < move.count; ++k) {
+          const double p = probability * weights[k] * target[k];
+          if (p <= 0) continue;
+          all += p;
+          m.add(from.sum * p, (from.cell - start_cell) * grid.step_m,
+                (move.first_cell + k - from.cell - width_cells) * grid.step_m);
+        }
+      });
+      completions.push_back(all);
+    }
+    const double most = *std::max_element(completions.begin(), completions.end());
+    for (double& value : completions) value /= most;
+    SequencePosterior::Place& place = posterior.places[i];
+    place.start_sd_m = i == 0 ? 0 : deviation(m.weight, m.x, m.xx);
+    place.width_sd_m = deviation(m.weight, m.w, m.ww);
+    place.covariance_m2 = m.xw / m.weight - m.x / m.weight * m.w / m.weight;
+    place.end_sd_m = i + 1 < elements() ? posterior.places[i + 1].start_sd_m : 0;
+    return completions;
+  }
+
+  void trace_best(SequencePosterior& posterior) {
+    LayerNode at = layer(0).front();
+    for (std::size_t i = 0; i < elements(); ++i) {
+      fill(i + 1, best_[i + 1]);
+      double most = -1;
+      PathStep step;
+      LayerNode next;
+      for_each_move(i, at, [&](std::size_t arc, const Move& move) {
+        const double* weights = edges_.max(move);
+        const double* target = targets(at, arc, move);
+        const Arc& taken = lattice_.arcs(at.state, at.cell)[arc];
+        for (int k = 0; k < move.count; ++k) {
+          const double value = taken.probability * weights[k] * target[k];
+          if (value <= most) continue;
+          most = value;
+          step = {at.cell,           move.first_cell + k - at.cell, at.state,
+                  at.evidence_state, static_cast<int>(arc),         move.target_evidence,
+                  move.matched};
+          next = {move.first_cell + k, taken.target, move.target_evidence, 0, 0};
+        }
+      });
+      clear(i + 1);
+      posterior.best.push_back(step);
+      at = next;
     }
   }
 
   const Lattice& lattice_;
-  const std::vector<double>& posteriors_;
-  const NodeTable& completions_;
+  std::vector<int> looks_;
   Edges edges_;
-  std::vector<double> scratch_;  // [node]; zero but for the layer at work
-  const std::vector<PathStep>& path_;
-  std::vector<std::vector<bool>> fits_;  // [element of the path][element of the row]
-  std::vector<std::vector<LayerNode>> layers_;
+  std::vector<double> scratch_;            // [node]; zero but for the layer at work
+  std::vector<const Prefix*> prefixes_;    // the empty one first
+  std::vector<std::vector<double>> best_;  // [layer][node of the layer]
+  std::vector<double> log_scale_;          // of best_
 };
 
 }  // namespace
 
-ElementLook look(const Element& element) {
-  ElementLook look;
-  for (const ElementRoom& room : element.rooms) {
-    look.types.push_back(room.type);
-    look.depths_m.push_back(room.depth_start_m);
-    look.depths_m.push_back(room.depth_m);
-  }
-  return look;
-}
-
-SequencePosterior sequence_posterior(const Lattice& lattice, const NodeTable& backward,
-                                     const std::vector<double>& posteriors,
-                                     const std::vector<PathStep>& path) {
-  return Sequence(lattice, posteriors, backward, path).run();
+SequencePosterior sequence_posterior(const Lattice& lattice, const Prefix& sequence) {
+  return Sequence(lattice, sequence).run();
 }
 
 }  // namespace gramap

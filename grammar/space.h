@@ -73,8 +73,10 @@ struct PlacedRoom {
 
 struct Layout {
   std::vector<PlacedRoom>
-      rooms;               ///< from start to end; widths and the walls between them sum to the length exactly
-  double score = 0;        ///< ln of the joint probability of layout and evidence, on a 1 cm grid
+      rooms;  ///< from start to end; widths and the walls between them sum to the length exactly
+  /// ln of the joint probability of this sequence of types and the evidence, over all its widths. Widths and
+  /// positions are those of its most probable layout.
+  double score = 0;
   double probability = 0;  ///< of this sequence of types among all, given the evidence
 };
 
@@ -98,14 +100,15 @@ struct SpaceFit {
 };
 
 struct FitOptions {
-  double grid_m = 0.01;         ///< step of the dynamic programme's positions
-  double outlier_share = 0.02;  ///< ε: prior share of evidence that no room explains
-  double cut_off_share = 0.02;  ///< prior share of scans whose one wall is spurious, inside the room
+  double grid_m = 0.01;             ///< step of the dynamic programme's positions
+  double outlier_share = 0.02;      ///< ε: prior share of evidence that no room explains
+  double cut_off_share = 0.02;      ///< prior share of scans whose one wall is spurious, inside the room
   double missed_wall_share = 0.01;  ///< prior share of scans that read two rooms as one
   double doorless_share = 0.03;     ///< prior share of rooms without a door to the hallway
   double second_door_share = 0.05;  ///< prior share of rooms with two doors or more
   double false_door_share = 0.01;   ///< expected number of doors seen per space that are none
-  int alternatives = 0;         ///< how many distinct alternatives to report
+  int beam = 24;                    ///< prefixes of layouts that are carried on from about the same place
+  int alternatives = 0;             ///< how many distinct alternatives to report
 };
 
 /// The most probable layout of the space. Throws InputError when no derivation fills the space, naming the

@@ -1,0 +1,248 @@
+#include "grammar/sequence_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace gramap {
+namespace {
+
+using PrefixPtr = std::shared_ptr<const Prefix>;
+
+constexpr double kNegligible = 1e-12;  // share of a prefix below which its nodes are left out
+
+class Search {
+ public:
+  Search(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
+         const std::vector<double>& posteriors, const SearchLimits& limits)
+      : lattice_(lattice),
+        completions_(backward),
+        posteriors_(posteriors),
+        limits_(limits),
+        log_total_(log_total(lattice, forward)),
+        looks_(looks_of(lattice.row())),
+        edges_(lattice),
+        scratch_(lattice.nodes(), 0) {
+    for (const int look : looks_) look_count_ = std::max(look_count_, look + 1);
+  }
+
+  std::vector<PrefixPtr> run() {
+    const PrefixPtr root = empty_prefix();
+    dive(root);
+    std::vector<PrefixPtr> pending{root};
+    while (!pending.empty()) {
+      std::vector<PrefixPtr> group = take_leftmost(pending);
+      thin_out(group);
+      for (const PrefixPtr& prefix : group)
+        for (PrefixPtr& child : children(prefix)) pending.push_back(std::move(child));
+      std::erase_if(pending, [&](const PrefixPtr& prefix) { return is_hopeless(*prefix); });
+    }
+    return std::move(found_);
+  }
+
+ private:
+  PrefixPtr empty_prefix() const {
+    const auto [evidence, weight] = lattice_.start();
+    auto root = std::make_shared<Prefix>();
+    root->layer = {{0, 0, evidence, lattice_.node(0, 0, evidence), 1}};
+    root->log_weight = std::log(weight);
+    return root;
+  }
+
+  /// Follows the most probable child down to a whole sequence: a first bound for the search.
+  void dive(PrefixPtr prefix) {
+    while (prefix != nullptr) {
+      PrefixPtr next;
+      for (PrefixPtr& child : children(prefix))
+        if (next == nullptr || child->log_posterior > next->log_posterior) next = std::move(child);
+      prefix = std::move(next);
+    }
+  }
+
+  /// Prefixes that end at about the same place; none of them can become another of them.
+  std::vector<PrefixPtr> take_leftmost(std::vector<PrefixPtr>& pending) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const PrefixPtr& prefix : pending) least = std::min(least, prefix->mean_cell);
+    const double reach = least + std::max(1, lattice_.shortest());
+    const auto middle = std::stable_partition(pending.begin(), pending.end(),
+                                              [&](const PrefixPtr& p) { return p->mean_cell >= reach; });
+    std::vector<PrefixPtr> group(std::make_move_iterator(middle), std::make_move_iterator(pending.end()));
+    pending.erase(middle, pending.end());
+    return group;
+  }
+
+  bool is_hopeless(const Prefix& prefix) const {
+    if (found_.size() < static_cast<std::size_t>(limits_.sequences)) return false;
+    const double worst = found_.back()->log_posterior;
+    return prefix.log_posterior <= worst - 1e-12;
+  }
+
+  /// Drops prefixes that as many others dominate as sequences are wanted, and those beyond the beam.
+  void thin_out(std::vector<PrefixPtr>& group) const {
+    std::stable_sort(group.begin(), group.end(), [](const PrefixPtr& a, const PrefixPtr& b) {
+      return a->log_posterior > b->log_posterior;
+    });
+    std::vector<PrefixPtr> kept;
+    for (const PrefixPtr& prefix : group) {
+      if (kept.size() >= static_cast<std::size_t>(limits_.beam)) break;
+      if (is_hopeless(*prefix)) continue;
+      int dominating = 0;
+      for (const PrefixPtr& other : kept) dominating += dominates(*other, *prefix) ? 1 : 0;
+      if (dominating < limits_.sequences) kept.push_back(prefix);
+    }
+    group = std::move(kept);
+  }
+
+  static bool dominates(const Prefix& a, const Prefix& b) {
+    const double factor = std::exp(a.log_weight - b.log_weight);
+    auto at = a.layer.begin();
+    for (const LayerNode& node : b.layer) {
+      while (at != a.layer.end() && at->node < node.node) ++at;
+      if (at == a.layer.end() || at->node != node.node || at->sum * factor < node.sum) return false;
+    }
+    return true;
+  }
+
+  /// All prefixes that are one element longer; whole sequences among them go to `found_`.
+  std::vector<PrefixPtr> children(const PrefixPtr& prefix) {
+    std::vector<PrefixPtr> made;
+    for (int look = 0; look < look_count_; ++look) {
+      int first = lattice_.grid().cells + 1;
+      int last = -1;
+      for (const LayerNode& from : prefix->layer) {
+        for (const Arc& arc : lattice_.arcs(from.state, from.cell)) {
+          if (looks_[static_cast<std::size_t>(arc.element)] != look) continue;
+          for (const Move& move : edges_.moves(from.cell, arc.element, from.evidence_state)) {
+            const double* weights = edges_.sum(move);
+            double* target = &scratch_[lattice_.node(move.first_cell, arc.target, move.target_evidence)];
+            const double factor = from.sum * arc.probability;
+            for (int i = 0; i < move.count; ++i) target[i] += factor * weights[i];
+            first = std::min(first, move.first_cell);
+            last = std::max(last, move.first_cell + move.count - 1);
+          }
+        }
+      }
+      if (last < 0) continue;
+      std::vector<LayerNode> inner;
+      std::vector<LayerNode> end;
+      collect(first, last, inner, end);
+      if (PrefixPtr whole = make_prefix(prefix, look, std::move(end))) keep_found(std::move(whole));
+      if (PrefixPtr child = make_prefix(prefix, look, std::move(inner)))
+        if (!is_hopeless(*child)) made.push_back(std::move(child));
+    }
+    return made;
+  }
+
+  void collect(int first, int last, std::vector<LayerNode>& inner, std::vector<LayerNode>& end) {
+    for (int cell = first; cell <= last; ++cell) {
+      const bool at_end = cell == lattice_.grid().cells;
+      for_each_node(lattice_, cell, [&](int e, int state, std::size_t node) {
+        double value = std::exchange(scratch_[node], 0);
+        if (at_end) value *= lattice_.row().accept[static_cast<std::size_t>(state)];
+        if (value <= 0 || posteriors_[node] < kDeadPosterior) return;
+        (at_end ? end : inner).push_back({cell, state, e, node, value});
+      });
+    }
+  }
+
+  PrefixPtr make_prefix(const PrefixPtr& before, int look, std::vector<LayerNode> layer) const {
+    if (layer.empty()) return nullptr;
+    auto prefix = std::make_shared<Prefix>();
+    const double reference = completions_.log_scale[static_cast<std::size_t>(layer.front().cell)];
+    const auto promise = [&](const LayerNode& node) {
+      if (node.cell == lattice_.grid().cells) return node.sum;  // the end is accounted for
+      const double scale = completions_.log_scale[static_cast<std::size_t>(node.cell)];
+      return node.sum * completions_.value[node.node] *
+             (scale == reference ? 1 : std::exp(scale - reference));
+    };
+    std::vector<double> promises;
+    double all = 0;
+    double mean = 0;
+    double most = 0;
+    for (const LayerNode& node : layer) {
+      promises.push_back(promise(node));
+      all += promises.back();
+      mean += promises.back() * node.cell;
+      most = std::max(most, promises.back());
+    }
+    if (!(all > 0)) return nullptr;
+    double sum = 0;
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      if (promises[i] < kNegligible * most) continue;
+      sum += layer[i].sum;
+      prefix->layer.push_back(layer[i]);
+    }
+    for (LayerNode& node : prefix->layer) node.sum /= sum;
+    std::sort(prefix->layer.begin(), prefix->layer.end(),
+              [](const LayerNode& a, const LayerNode& b) { return a.node < b.node; });
+    prefix->before = before;
+    prefix->look = look;
+    prefix->log_weight = before->log_weight + std::log(sum);
+    prefix->log_posterior = before->log_weight + std::log(all) + reference - log_total_;
+    prefix->mean_cell = mean / all;
+    return prefix;
+  }
+
+  void keep_found(PrefixPtr whole) {
+    const auto same = [&](const PrefixPtr& other) {
+      const Prefix* a = whole.get();
+      const Prefix* b = other.get();
+      while (a != nullptr && b != nullptr && a->look == b->look) {
+        a = a->before.get();
+        b = b->before.get();
+      }
+      return a == nullptr && b == nullptr;
+    };
+    if (std::any_of(found_.begin(), found_.end(), same)) return;  // the dive found it before
+    const auto place = std::find_if(found_.begin(), found_.end(), [&](const PrefixPtr& other) {
+      return other->log_posterior < whole->log_posterior;
+    });
+    found_.insert(place, std::move(whole));
+    if (found_.size() > static_cast<std::size_t>(limits_.sequences)) found_.pop_back();
+  }
+
+  const Lattice& lattice_;
+  const NodeTable& completions_;
+  const std::vector<double>& posteriors_;
+  SearchLimits limits_;
+  double log_total_;
+  std::vector<int> looks_;
+  int look_count_ = 0;
+  Edges edges_;
+  std::vector<double> scratch_;  // [node]; zero but while children are made
+  std::vector<PrefixPtr> found_;
+};
+
+}  // namespace
+
+ElementLook look(const Element& element) {
+  ElementLook look;
+  for (const ElementRoom& room : element.rooms) {
+    look.types.push_back(room.type);
+    look.depths_m.push_back(room.depth_start_m);
+    look.depths_m.push_back(room.depth_m);
+  }
+  return look;
+}
+
+std::vector<int> looks_of(const Row& row) {
+  std::vector<ElementLook> known;
+  std::vector<int> ids;
+  for (const Element& element : row.elements) {
+    const ElementLook wanted = look(element);
+    const auto place = std::find(known.begin(), known.end(), wanted);
+    ids.push_back(static_cast<int>(place - known.begin()));
+    if (place == known.end()) known.push_back(wanted);
+  }
+  return ids;
+}
+
+std::vector<PrefixPtr> most_probable_sequences(const Lattice& lattice, const NodeTable& forward,
+                                               const NodeTable& backward,
+                                               const std::vector<double>& posteriors,
+                                               const SearchLimits& limits) {
+  return Search(lattice, forward, backward, posteriors, limits).run();
+}
+
+}  // namespace gramap
