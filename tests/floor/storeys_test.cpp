@@ -1,4 +1,4 @@
-#include "floor/building.h"
+#include "floor/storeys.h"
 
 #include <doctest/doctest.h>
 
