@@ -1,1 +1,108 @@
 #include "grammar/diagnostic.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace gramap {
+namespace {
+
+struct Line {
+  std::size_t number = 1;
+  std::size_t begin = 0;
+  std::size_t end = 0;  ///< without the line break
+};
+
+bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+Line line_at(std::string_view text, std::size_t position) {
+  position = std::min(position, text.size());
+  Line line;
+  line.number += static_cast<std::size_t>(
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
+  if (position > 0) {
+    const std::size_t before = text.rfind('\n', position - 1);
+    line.begin = before == std::string_view::npos ? 0 : before + 1;
+  }
+  line.end = std::min(text.find('\n', line.begin), text.size());
+  if (line.end > line.begin && text[line.end - 1] == '\r') --line.end;
+  return line;
+}
+
+/// Counted in characters from 1; a tab is one character.
+std::size_t column_at(std::string_view text, const Line& line, std::size_t position) {
+  std::size_t column = 1;
+  for (std::size_t i = line.begin; i < std::min(position, line.end); ++i)
+    column += continues_character(text[i]) ? 0 : 1;
+  return column;
+}
+
+/// The source line and a mark under the span. Tabs are kept in the margin below, so the mark stays in place
+/// at any tab width.
+std::string excerpt(std::string_view text, Span span, char mark, const std::string& label,
+                    std::size_t margin) {
+  const Line line = line_at(text, span.begin);
+  std::string number = std::to_string(line.number);
+  number.insert(0, margin - number.size(), ' ');
+  std::string out = " " + number + " | " + std::string(text.substr(line.begin, line.end - line.begin)) +
+                    "\n " + std::string(margin, ' ') + " | ";
+  for (std::size_t i = line.begin; i < std::min(span.begin, line.end); ++i)
+    if (!continues_character(text[i])) out += text[i] == '\t' ? '\t' : ' ';
+  std::size_t width = 0;
+  for (std::size_t i = span.begin; i < std::min(span.end, line.end); ++i)
+    width += continues_character(text[i]) ? 0 : 1;
+  out += std::string(std::max<std::size_t>(width, 1), mark);
+  if (!label.empty()) out += " " + label;
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string render(const Diagnostic& diagnostic, std::string_view text, const std::string& name) {
+  const Line line = line_at(text, diagnostic.span.begin);
+  std::size_t last_number = line.number;
+  for (const auto& label : diagnostic.labels)
+    last_number = std::max(last_number, line_at(text, label.span.begin).number);
+  const std::size_t margin = std::max<std::size_t>(std::to_string(last_number).size(), 3);
+
+  std::string out = name + ":" + std::to_string(line.number) + ":" +
+                    std::to_string(column_at(text, line, diagnostic.span.begin)) + ": " +
+                    (diagnostic.severity == Severity::error ? "error" : "warning") + "[" + diagnostic.code +
+                    "]: " + diagnostic.message + "\n";
+  out += excerpt(text, diagnostic.span, '^', "", margin);
+  for (const auto& label : diagnostic.labels) out += excerpt(text, label.span, '-', label.text, margin);
+  const std::string indent(margin + 2, ' ');
+  for (const std::string& note : diagnostic.notes) out += indent + "= note: " + note + "\n";
+  if (!diagnostic.help.empty()) out += indent + "= help: " + diagnostic.help + "\n";
+  return out;
+}
+
+std::string to_json(const std::vector<Diagnostic>& diagnostics, std::string_view text,
+                    const std::string& name) {
+  using Json = nlohmann::ordered_json;
+  const auto place = [&](Span span) {
+    const auto point = [&](std::size_t position) {
+      const Line line = line_at(text, position);
+      return Json{{"byte", position}, {"line", line.number}, {"column", column_at(text, line, position)}};
+    };
+    return Json{{"start", point(span.begin)}, {"end", point(span.end)}};
+  };
+  Json list = Json::array();
+  for (const Diagnostic& diagnostic : diagnostics) {
+    Json labels = Json::array();
+    for (const auto& label : diagnostic.labels)
+      labels.push_back({{"span", place(label.span)}, {"text", label.text}});
+    list.push_back({{"file", name},
+                    {"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
+                    {"code", diagnostic.code},
+                    {"message", diagnostic.message},
+                    {"span", place(diagnostic.span)},
+                    {"labels", labels},
+                    {"notes", diagnostic.notes},
+                    {"help", diagnostic.help}});
+  }
+  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gramap

@@ -95,7 +95,7 @@ struct Item {
     split,   ///< a nested split of this item's own scope: `children` along `axis`
     repeat,  ///< `children` again and again, between `least` and `most` times (each count equally likely;
              ///< most < 0: after `least`, once more with probability one half each time)
-    merge,  ///< `children`'s widths and the walls between them become one room of type `ref`
+    merge,   ///< `children`'s widths and the walls between them become one room of type `ref`
   };
   Kind kind = Kind::piece;
   Size size;
