@@ -62,12 +62,19 @@ struct PlanFault {
 struct Partition {
   std::vector<Vec2> points;
   std::vector<PlanCell> cells;
+  /// A straight stretch of a wall's face, with the wall on its left.
+  struct Face {
+    int side = kOutside;  ///< the room on whose border it is
+    Vec2 a = Vec2::Zero();
+    Vec2 b = Vec2::Zero();
+  };
   /// Walls and junctions: the cells (walls with their openings' footprints) of each, ordered by place.
   struct Wall {
     PlanCell::Kind kind = PlanCell::Kind::wall;
     int side_a = kOutside;
     int side_b = kOutside;
     std::vector<int> cells;
+    std::vector<Face> faces;
     double thickness_m = 0;  ///< area over mean face length; 0 for junctions and mass
     double length_m = 0;
   };
@@ -75,7 +82,7 @@ struct Partition {
   double outline_area_m2 = 0;
   double rooms_area_m2 = 0;
   double walls_area_m2 = 0;
-  /// Outline minus rooms minus walls in exact arithmetic: "0" unless there are faults.
+  /// Rooms and walls make up the outline without any remainder, in exact arithmetic.
   bool exact = false;
   std::vector<PlanFault> faults;
 };

@@ -1,0 +1,203 @@
+#include "geometry/overlay.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Polygon_2_algorithms.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace gramap {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Kernel::Point_2;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using FaceInfo = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, FaceInfo>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_intersections_tag>;
+using Rational = CGAL::Exact_rational;
+
+struct ExactPoint {
+  Rational x, y;
+};
+
+Rational cross(const ExactPoint& a, const ExactPoint& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+Rational twice_area(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+Point exact(const Vec2& p) {
+  return {p.x(), p.y()};
+}
+
+ExactPoint rational(const Vec2& p) {
+  return {Rational(p.x()), Rational(p.y())};
+}
+
+Point exact(const std::vector<Polygon>& rings, const PointOnRing& point) {
+  const Polygon& ring = rings[point.ring];
+  const Point p = exact(ring[point.edge]), q = exact(ring[(point.edge + 1) % ring.size()]);
+  if (point.t <= 0) return p;
+  if (point.t >= 1) return q;
+  if (CGAL::collinear(p, q, exact(point.at))) return exact(point.at);
+  return p + Kernel::FT(point.t) * (q - p);
+}
+
+/// A ring and its bounds, to ask quickly whether it holds a point.
+struct RingTest {
+  std::vector<Point> points;
+  CGAL::Bbox_2 box;
+
+  explicit RingTest(const Polygon& ring) {
+    for (const Vec2& p : ring) points.push_back(exact(p)), box += points.back().bbox();
+  }
+  bool holds(const Point& p) const {
+    return CGAL::do_overlap(box, p.bbox()) &&
+           CGAL::bounded_side_2(points.begin(), points.end(), p, Kernel()) == CGAL::ON_BOUNDED_SIDE;
+  }
+};
+
+class Builder {
+ public:
+  Builder(const std::vector<Polygon>& rings, const std::vector<Cut>& cuts) : rings_(rings), cuts_(cuts) {}
+
+  Overlay build() {
+    insert();
+    number_points();
+    flood();
+    sum_areas();
+    return std::move(result_);
+  }
+
+ private:
+  void insert() {
+    for (const Polygon& ring : rings_) {
+      Triangulation::Vertex_handle first, previous;
+      for (const Vec2& p : ring) {
+        const auto vertex = triangulation_.insert(
+            exact(p), previous == nullptr ? Triangulation::Face_handle() : previous->face());
+        if (previous == nullptr) first = vertex;
+        if (previous != nullptr && previous != vertex) triangulation_.insert_constraint(previous, vertex);
+        previous = vertex;
+      }
+      if (previous != first) triangulation_.insert_constraint(previous, first);
+    }
+    Triangulation::Face_handle hint;
+    for (const Cut& cut : cuts_) {
+      const auto from = triangulation_.insert(exact(rings_, cut.from), hint);
+      const auto to = triangulation_.insert(exact(rings_, cut.to), from->face());
+      if (from != to) triangulation_.insert_constraint(from, to);
+      hint = to->face();
+    }
+  }
+
+  void number_points() {
+    for (const auto vertex : triangulation_.finite_vertex_handles()) {
+      vertex->info() = static_cast<int>(result_.points.size());
+      const auto& point = vertex->point();
+      result_.points.emplace_back(CGAL::to_double(point.x()), CGAL::to_double(point.y()));
+      exact_.push_back({Rational(point.x().exact()), Rational(point.y().exact())});
+    }
+  }
+
+  /// Cells: triangles that no constraint separates, each with the rings that hold it.
+  void flood() {
+    std::vector<RingTest> tests;
+    for (const Polygon& ring : rings_) tests.emplace_back(ring);
+    for (const auto face : triangulation_.all_face_handles()) face->info() = -1;
+    for (const auto start : triangulation_.finite_face_handles()) {
+      if (start->info() >= 0) continue;
+      std::vector<Triangulation::Face_handle> faces{start};
+      bool reaches_infinity = false;
+      start->info() = 1;
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+          const auto next = faces[i]->neighbor(k);
+          if (faces[i]->is_constrained(k) || next->info() >= 0) continue;
+          if (triangulation_.is_infinite(next)) {
+            reaches_infinity = true;
+            continue;
+          }
+          next->info() = 1;
+          faces.push_back(next);
+        }
+      if (!reaches_infinity) add_cell(faces, tests);
+    }
+  }
+
+  void add_cell(const std::vector<Triangulation::Face_handle>& faces, const std::vector<RingTest>& tests) {
+    Overlay::Cell cell;
+    double largest = -1;
+    Triangulation::Face_handle inner;
+    for (const auto face : faces) {
+      cell.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+      const Triangle& t = cell.triangles.back();
+      const Vec2 u = result_.points[t[1]] - result_.points[t[0]],
+                 v = result_.points[t[2]] - result_.points[t[0]];
+      const double area = (u.x() * v.y() - u.y() * v.x()) / 2;
+      cell.area_m2 += area;
+      if (area > largest) largest = area, inner = face;
+    }
+    const Point inside = CGAL::centroid(triangulation_.triangle(inner));
+    cell.inside = {CGAL::to_double(inside.x()), CGAL::to_double(inside.y())};
+    for (int ring = 0; ring < static_cast<int>(tests.size()); ++ring)
+      if (tests[ring].holds(inside)) cell.rings.push_back(ring);
+    if (!cell.rings.empty()) result_.cells.push_back(std::move(cell));
+  }
+
+  void sum_areas() {
+    std::vector<Rational> rest(rings_.size(), Rational(0));
+    for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
+      const Polygon& points = rings_[ring];
+      for (std::size_t i = 0; i < points.size(); ++i)
+        rest[ring] += cross(rational(points[i]), rational(points[(i + 1) % points.size()]));
+      if (rest[ring] < 0) rest[ring] = -rest[ring];
+      result_.ring_area_m2.push_back(CGAL::to_double(rest[ring]) / 2);
+    }
+    for (const Overlay::Cell& cell : result_.cells) {
+      Rational sum = 0;
+      for (const Triangle& t : cell.triangles) sum += twice_area(exact_[t[0]], exact_[t[1]], exact_[t[2]]);
+      for (const int ring : cell.rings) rest[ring] -= sum;
+    }
+    for (const Rational& r : rest) result_.tiled.push_back(r == 0);
+  }
+
+  const std::vector<Polygon>& rings_;
+  const std::vector<Cut>& cuts_;
+  Triangulation triangulation_;
+  std::vector<ExactPoint> exact_;
+  Overlay result_;
+};
+
+}  // namespace
+
+Overlay overlay(const std::vector<Polygon>& rings, const std::vector<Cut>& cuts) {
+  return Builder(rings, cuts).build();
+}
+
+bool tiles_exactly(const std::vector<Vec2>& points, const std::vector<Triangle>& triangles) {
+  std::set<std::pair<int, int>> open;  // directed edges without a partner: the border
+  Rational rest = 0;
+  for (const Triangle& t : triangles) {
+    const Rational area = twice_area(rational(points[t[0]]), rational(points[t[1]]), rational(points[t[2]]));
+    if (area <= 0) return false;
+    rest += area;
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (open.erase({b, a}) == 0 && !open.insert({a, b}).second) return false;
+    }
+  }
+  for (const auto& [a, b] : open) rest -= cross(rational(points[a]), rational(points[b]));
+  return rest == 0;
+}
+
+}  // namespace gramap

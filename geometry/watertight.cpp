@@ -1,0 +1,206 @@
+#include "geometry/watertight.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace gramap {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 cgal(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+/// The mesh with points of equal coordinates made one.
+Mesh welded(const Mesh& mesh) {
+  Mesh result;
+  std::map<std::tuple<double, double, double>, int> index;
+  std::vector<int> to(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3& p = mesh.points[i];
+    const auto [entry, is_new] =
+        index.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(result.points.size()));
+    if (is_new) result.points.push_back(p);
+    to[i] = entry->second;
+  }
+  for (const Triangle& t : mesh.triangles) result.triangles.push_back({to[t[0]], to[t[1]], to[t[2]]});
+  return result;
+}
+
+class Sets {
+ public:
+  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int a, int b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+class Check {
+ public:
+  Check(const Mesh& mesh, int limit) : mesh_(welded(mesh)), limit_(limit) {}
+
+  std::vector<MeshFault> run() {
+    for (const Vec3& p : mesh_.points)
+      if (!p.allFinite()) fault(MeshFault::Kind::not_finite, p);
+    if (!faults_.empty()) return faults_;
+    triangles();
+    if (faults_.empty()) edges();
+    if (faults_.empty()) {
+      umbrellas();
+      shells();
+      self_intersections();
+    }
+    return faults_;
+  }
+
+ private:
+  void fault(MeshFault::Kind kind, const Vec3& at) {
+    if (static_cast<int>(faults_.size()) < limit_) faults_.push_back({kind, at});
+  }
+  const Vec3& point(int triangle, int k) const { return mesh_.points[mesh_.triangles[triangle][k]]; }
+
+  void triangles() {
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+      if (CGAL::collinear(cgal(point(t, 0)), cgal(point(t, 1)), cgal(point(t, 2))))
+        fault(MeshFault::Kind::degenerate, point(t, 0));
+  }
+
+  void edges() {
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (!triangle_of_.try_emplace({mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]}, t).second) {
+          // The same directed edge twice: neighbours that disagree on the side, or more than two faces.
+          const bool reversed = triangle_of_.count({mesh_.triangles[t][(k + 1) % 3], mesh_.triangles[t][k]});
+          fault(reversed ? MeshFault::Kind::non_manifold : MeshFault::Kind::orientation, point(t, k));
+        }
+    for (const auto& [edge, t] : triangle_of_)
+      if (!triangle_of_.count({edge.second, edge.first}))
+        fault(MeshFault::Kind::open_edge, mesh_.points[edge.first]);
+  }
+
+  /// Around every point the triangles form one fan.
+  void umbrellas() {
+    std::vector<int> count(mesh_.points.size(), 0), start(mesh_.points.size(), -1);
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+      for (const int p : mesh_.triangles[t]) ++count[p], start[p] = t;
+    for (int p = 0; p < static_cast<int>(mesh_.points.size()); ++p) {
+      if (start[p] < 0) continue;
+      int t = start[p], steps = 0;
+      do {  // turn about p: over the edge that leaves p
+        const Triangle& corners = mesh_.triangles[t];
+        const int k = static_cast<int>(std::find(corners.begin(), corners.end(), p) - corners.begin());
+        t = triangle_of_.at({corners[(k + 1) % 3], p});
+        ++steps;
+      } while (t != start[p] && steps <= count[p]);
+      if (steps != count[p]) fault(MeshFault::Kind::non_manifold, mesh_.points[p]);
+    }
+  }
+
+  /// Every connected shell encloses a positive volume.
+  void shells() {
+    Sets sets(mesh_.triangles.size());
+    for (const auto& [edge, t] : triangle_of_) sets.join(t, triangle_of_.at({edge.second, edge.first}));
+    std::map<int, Mesh> shells;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
+      Mesh& shell = shells[sets.find(t)];
+      for (int k = 0; k < 3; ++k) shell.points.push_back(point(t, k));
+      const int first = static_cast<int>(shell.points.size()) - 3;
+      shell.triangles.push_back({first, first + 1, first + 2});
+    }
+    for (const auto& [root, shell] : shells)
+      if (!(signed_volume(shell) > 0)) fault(MeshFault::Kind::inside_out, point(root, 0));
+  }
+
+  void self_intersections() {
+    struct Box {
+      Vec3 low, high;
+      int triangle;
+    };
+    std::vector<Box> boxes;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+      boxes.push_back({point(t, 0).cwiseMin(point(t, 1)).cwiseMin(point(t, 2)),
+                       point(t, 0).cwiseMax(point(t, 1)).cwiseMax(point(t, 2)), t});
+    // Sweep along the longest extent.
+    Vec3 low = Vec3::Constant(1e300), high = -low;
+    for (const Box& b : boxes) low = low.cwiseMin(b.low), high = high.cwiseMax(b.high);
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    std::sort(boxes.begin(), boxes.end(), [axis](const Box& a, const Box& b) {
+      return std::tie(a.low[axis], a.triangle) < std::tie(b.low[axis], b.triangle);
+    });
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low[axis] <= boxes[i].high[axis]; ++j)
+        if ((boxes[i].low.array() <= boxes[j].high.array()).all() &&
+            (boxes[j].low.array() <= boxes[i].high.array()).all() &&
+            intersect(boxes[i].triangle, boxes[j].triangle))
+          fault(MeshFault::Kind::self_intersection, point(boxes[i].triangle, 0));
+  }
+
+  /// True when two triangles meet anywhere but in the corners and edges that they share.
+  bool intersect(int s, int t) const {
+    std::vector<int> shared, only_s, only_t;
+    for (const int p : mesh_.triangles[s]) {
+      const auto& other = mesh_.triangles[t];
+      (std::find(other.begin(), other.end(), p) != other.end() ? shared : only_s).push_back(p);
+    }
+    for (const int p : mesh_.triangles[t])
+      if (std::find(shared.begin(), shared.end(), p) == shared.end()) only_t.push_back(p);
+    const auto at = [this](int p) { return cgal(mesh_.points[p]); };
+    const auto whole = [this](int i) {
+      return Kernel::Triangle_3(cgal(point(i, 0)), cgal(point(i, 1)), cgal(point(i, 2)));
+    };
+    if (shared.size() == 3) return true;
+    if (shared.empty()) return CGAL::do_intersect(whole(s), whole(t));
+    if (shared.size() == 1)  // the edge opposite the shared corner must stay clear of the other triangle
+      return CGAL::do_intersect(Kernel::Segment_3(at(only_s[0]), at(only_s[1])), whole(t)) ||
+             CGAL::do_intersect(Kernel::Segment_3(at(only_t[0]), at(only_t[1])), whole(s));
+    // An edge in common: they overlap only when folded onto each other.
+    return CGAL::coplanar(at(shared[0]), at(shared[1]), at(only_s[0]), at(only_t[0])) &&
+           CGAL::coplanar_orientation(at(shared[0]), at(shared[1]), at(only_s[0]), at(only_t[0])) ==
+               CGAL::POSITIVE;
+  }
+
+  Mesh mesh_;
+  int limit_;
+  std::map<std::pair<int, int>, int> triangle_of_;  ///< by directed edge
+  std::vector<MeshFault> faults_;
+};
+
+}  // namespace
+
+const char* to_string(MeshFault::Kind kind) {
+  switch (kind) {
+    case MeshFault::Kind::open_edge:
+      return "open edge";
+    case MeshFault::Kind::non_manifold:
+      return "not a 2-manifold";
+    case MeshFault::Kind::orientation:
+      return "neighbouring faces with opposite orientation";
+    case MeshFault::Kind::degenerate:
+      return "triangle without area";
+    case MeshFault::Kind::inside_out:
+      return "shell that faces inward";
+    case MeshFault::Kind::self_intersection:
+      return "self-intersection";
+    case MeshFault::Kind::not_finite:
+      return "coordinate that is not finite";
+  }
+  return "";
+}
+
+std::vector<MeshFault> check_solid(const Mesh& mesh, int limit) {
+  return Check(mesh, limit).run();
+}
+
+}  // namespace gramap
