@@ -1,5 +1,6 @@
 #include "geometry/mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <utility>
