@@ -34,9 +34,9 @@ struct Candidate {
   float rho;
 };
 
-/// Draws triples and votes until a cell has enough votes; nothing when `max_trials` triples brought none.
+/// Draws triples and votes until a cell has enough votes; nothing when `trials` comes to the most allowed.
 std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulator& votes, Random& random,
-                                        const HoughOptions& options) {
+                                        const HoughOptions& options, int& trials) {
   const std::vector<Point>& points = near.points();
   const float min_squared = static_cast<float>(options.min_pair_m * options.min_pair_m);
   const float max_squared = static_cast<float>(options.max_pair_m * options.max_pair_m);
@@ -44,7 +44,7 @@ std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulat
     const float squared = d.squaredNorm();
     return squared >= min_squared && squared <= max_squared;
   };
-  for (int trial = 0; trial < options.max_trials; ++trial) {
+  for (; trials < options.max_trials; ++trials) {
     const std::uint32_t first = static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
     const Point& p = points[first];
     const Eigen::Vector3f a = points[near.draw(first, random)] - p;
@@ -264,12 +264,17 @@ std::vector<PlanePatch> detect_planes(std::span<const Point> points, const Hough
                      options.max_pair_m / 2);
   BallAccumulator votes(options.angle_cell_rad, options.rho_cell_m);
   std::vector<std::uint8_t> taken;
+  int trials = 0, refusals = 0;  // since the last plane
   while (static_cast<int>(patches.size()) < options.max_planes &&
          near.points().size() >= static_cast<std::size_t>(options.min_support)) {
-    const std::optional<Candidate> candidate = draw_candidate(near, votes, random, options);
+    const std::optional<Candidate> candidate = draw_candidate(near, votes, random, options, trials);
     if (!candidate) break;
     const std::optional<PlanePatch> patch = grow(near.points(), *candidate, options);
-    if (!patch) continue;
+    if (!patch) {
+      if (++refusals == options.max_refusals) break;
+      continue;
+    }
+    trials = refusals = 0;
     taken.assign(near.points().size(), 0);
     const double reach = std::max(1.5 * patch->band_m, 0.03);
     for (std::size_t i = 0; i < taken.size(); ++i) {

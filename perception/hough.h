@@ -33,7 +33,8 @@ struct HoughOptions {
   double min_area_m2 = 0.15;     ///< smaller patches are no planes
   int min_support = 25;          ///< sample points a plane has at least
   int max_planes = 80;
-  int max_trials = 60000;  ///< triples drawn without a candidate before giving up
+  int max_trials = 20000;  ///< triples drawn since the last plane before giving up
+  int max_refusals = 40;   ///< candidates refused since the last plane before giving up
   std::uint64_t seed = 1;
 };
 
