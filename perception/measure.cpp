@@ -1,114 +1,127 @@
 #include "perception/measure.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "geometry/polygon.h"
 
 namespace gramap {
 namespace {
 
-/// Sums for a straight line y = offset + slope · x through points along a wall.
-struct LineSums {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  void add(double px, double py) {
-    n += 1;
-    x += px;
-    y += py;
-    xx += px * px;
-    xy += px * py;
-    yy += py * py;
-  }
-};
+constexpr std::size_t kMeasuredPoints = 300000;  // enough: what is left of the error is not the points' noise
 
 struct Stretch {
   double from, to;
 };
 
-}  // namespace
-
-std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLine>& lines,
-                                        const RegisteredCloud& cloud, const Storey& storey) {
-  const std::size_t edges = outline.ring.size();
-  std::vector<std::vector<Stretch>> stretches(lines.size());
-  for (std::size_t i = 0; i < edges; ++i) {
-    const WallLine& line = lines[static_cast<std::size_t>(outline.lines[i])];
-    const double a = line.direction().dot(outline.ring[i]),
-                 b = line.direction().dot(outline.ring[(i + 1) % edges]);
-    const double shrink = std::min(0.05, std::abs(a - b) / 4);  // corners hold points of both walls
-    stretches[static_cast<std::size_t>(outline.lines[i])].push_back(
-        {std::min(a, b) + shrink, std::max(a, b) - shrink});
-  }
-  std::vector<MeasuredWall> measured(lines.size());
-  const float low = static_cast<float>(storey.floor_z_m + 0.05),
-              high = static_cast<float>(storey.ceiling_z_m - 0.05);
-  for (std::size_t l = 0; l < lines.size(); ++l) {
-    if (stretches[l].empty()) continue;
-    WallLine& line = lines[l];
-    double band = line.band_m;
-    for (int round = 0; round < 3; ++round) {
-      const Vec2 direction = line.direction();
-      double middle = 0;
-      for (const Stretch& s : stretches[l])
-        middle += (s.from + s.to) / 2 / static_cast<double>(stretches[l].size());
-      std::vector<LineSums> of_scan(cloud.parts.size());
-      LineSums all;
-      for (std::size_t part = 0; part < cloud.parts.size(); ++part)
-        for (std::size_t i = cloud.parts[part].begin; i < cloud.parts[part].end; ++i) {
-          const Point& p = cloud.points_m[i];
-          if (p.z() < low || p.z() > high) continue;
-          const Vec2 plan(p.x(), p.y());
-          const double across = line.distance(plan);
-          if (std::abs(across) > band) continue;
-          const double along = direction.dot(plan);
-          for (const Stretch& s : stretches[l])
-            if (along >= s.from && along <= s.to) {
-              of_scan[part].add(along - middle, across);
-              all.add(along - middle, across);
-            }
+/// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold points of two planes, and are left out.
+std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const std::vector<double>& bands,
+                               const std::vector<std::vector<Stretch>>& stretches, const Polygon& ring,
+                               const RegisteredCloud& cloud, const std::vector<Eigen::Isometry3d>& corrections) {
+  std::vector<PlanePoint> points;
+  const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kMeasuredPoints);
+  const double low = planes[0].middle.z() + 0.1, high = planes[1].middle.z() - 0.1;
+  for (std::uint32_t part = 0; part < cloud.parts.size(); ++part)
+    for (std::size_t i = cloud.parts[part].begin; i < cloud.parts[part].end; i += step) {
+      const Vec3 raw = cloud.points_m[i].cast<double>(), p = corrections[part] * raw;
+      if (p.z() > low && p.z() < high) {
+        for (std::uint32_t w = 2; w < planes.size(); ++w) {
+          const AdjustedPlane& plane = planes[w];
+          const Vec3 offset = p - plane.middle;
+          if (std::abs(plane.normal.dot(offset)) > bands[w]) continue;
+          const double along = plane.u.dot(offset);
+          const auto on = [&](const Stretch& s) { return along >= s.from && along <= s.to; };
+          if (std::any_of(stretches[w].begin(), stretches[w].end(), on)) {
+            points.push_back({raw, part, w});
+            break;
+          }
         }
-      if (all.n < 10) break;
-      const double determinant = all.n * all.xx - all.x * all.x;
-      double slope = (all.n * all.xy - all.x * all.y) / determinant, offset = (all.y - slope * all.x) / all.n;
-      if (!(determinant > 1e-9 * all.n * all.n) || std::abs(slope) > 0.05) {
-        slope = 0;
-        offset = all.y / all.n;
+      } else {
+        for (std::uint32_t level = 0; level < 2; ++level)
+          if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= bands[level] && contains(ring, p.head<2>()))
+            points.push_back({raw, part, level});
       }
-      const double variance = std::max(
-          0.0, all.yy / all.n - 2 * offset * all.y / all.n - 2 * slope * all.xy / all.n + offset * offset +
-                   2 * offset * slope * all.x / all.n + slope * slope * all.xx / all.n);
-      // How far the scans disagree about the wall says how well it is known; points alone would be far too
-      // sure.
-      double spread = 0, scans = 0;
-      for (const LineSums& sums : of_scan)
-        if (sums.n >= 10) {
-          const double residual = (sums.y - slope * sums.x) / sums.n - offset;
-          spread += residual * residual;
-          scans += 1;
-        }
-      const double between = scans > 1 ? spread / (scans - 1) / scans : 0.01 * 0.01;
-      MeasuredWall& wall = measured[l];
-      wall.rms_m = std::sqrt(variance);
-      wall.sigma_m = std::sqrt(between + variance / all.n);
-      wall.support = static_cast<int>(std::min(all.n, 2e9));
-      // The line through (middle, offset), turned by the slope.
-      const Vec2 through = line.normal * (line.rho_m + offset) + direction * middle;
-      line.normal = (line.normal - slope * direction).normalized();
-      line.rho_m = line.normal.dot(through);
-      band = std::clamp(2.5 * wall.rms_m, 0.015, line.band_m);
     }
-  }
-  std::vector<MeasuredWall> result;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const std::size_t before = static_cast<std::size_t>(outline.lines[(i + edges - 1) % edges]);
-    const std::size_t here = static_cast<std::size_t>(outline.lines[i]);
-    outline.ring[i] = crossing_of(lines[before], lines[here]);
-    result.push_back(measured[here]);
-  }
-  return result;
+  return points;
 }
 
-void measure_extent(RoomObservation& room) {
+}  // namespace
+
+double MeasuredRoom::distance_sigma_m(int a, int b) const {
+  const Eigen::MatrixXd& c = adjustment.covariance;
+  const double sign = planes[static_cast<std::size_t>(a)].normal.dot(planes[static_cast<std::size_t>(b)].normal) > 0 ? 1 : -1;
+  return std::sqrt(std::max(0.0, c(a, a) + c(b, b) - 2 * sign * c(a, b)));
+}
+
+MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, Storey& storey, RegisteredCloud& cloud) {
+  MeasuredRoom room;
+  const std::size_t edges = outline.ring.size();
+  const Vec2 centre = centroid(outline.ring);
+  for (const double z : {storey.floor_z_m, storey.ceiling_z_m}) {
+    AdjustedPlane level;
+    level.middle << centre, z;
+    level.u_slope_sigma = level.v_slope_sigma = 0.003;
+    room.planes.push_back(level);
+  }
+  std::vector<double> bands = {std::max(0.03, storey.floor_band_m), std::max(0.03, storey.ceiling_band_m)};
+  std::vector<int> plane_of_line(lines.size(), -1);
+  for (std::size_t i = 0; i < edges; ++i) {
+    const auto l = static_cast<std::size_t>(outline.lines[i]);
+    if (plane_of_line[l] < 0) {
+      plane_of_line[l] = static_cast<int>(room.planes.size());
+      const WallLine& line = lines[l];
+      AdjustedPlane wall;
+      const Vec2 middle = (outline.ring[i] + outline.ring[(i + 1) % edges]) / 2;
+      wall.normal << line.normal, 0;
+      wall.u << line.direction(), 0;
+      wall.v = Vec3::UnitZ();
+      wall.middle << Vec2(middle - line.distance(middle) * line.normal), (storey.floor_z_m + storey.ceiling_z_m) / 2;
+      room.planes.push_back(wall);
+      bands.push_back(line.band_m);
+    }
+    room.plane_of_edge.push_back(plane_of_line[l]);
+  }
+  std::vector<Vec3> scanners;
+  for (const RegisteredCloud::Part& part : cloud.parts) scanners.push_back(part.scanner_m);
+
+  // Every round starts from the scans as they came: what is known of their errors beforehand is used once.
+  std::vector<Eigen::Isometry3d> corrections(scanners.size(), Eigen::Isometry3d::Identity());
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::vector<Stretch>> stretches(room.planes.size());
+    for (std::size_t i = 0; i < edges; ++i) {
+      const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(room.plane_of_edge[i])];
+      const double a = plane.u.head<2>().dot(outline.ring[i] - plane.middle.head<2>());
+      const double b = plane.u.head<2>().dot(outline.ring[(i + 1) % edges] - plane.middle.head<2>());
+      const double shrink = std::min(0.06, std::abs(a - b) / 4);
+      stretches[static_cast<std::size_t>(room.plane_of_edge[i])].push_back({std::min(a, b) + shrink, std::max(a, b) - shrink});
+    }
+    const std::vector<PlanePoint> points = gather(room.planes, bands, stretches, outline.ring, cloud, corrections);
+    room.adjustment = adjust(room.planes, points, scanners);
+    corrections = room.adjustment.corrected_from_registered;
+    for (std::size_t p = 0; p < room.planes.size(); ++p) bands[p] = std::clamp(3 * room.planes[p].rms_m, 0.012, bands[p]);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      if (plane_of_line[l] < 0) continue;
+      const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(plane_of_line[l])];
+      lines[l].normal = plane.normal.head<2>().normalized();
+      lines[l].rho_m = lines[l].normal.dot(plane.middle.head<2>());
+      lines[l].rms_m = plane.rms_m;
+    }
+    for (std::size_t i = 0; i < edges; ++i)
+      outline.ring[i] = crossing_of(lines[static_cast<std::size_t>(outline.lines[(i + edges - 1) % edges])],
+                                    lines[static_cast<std::size_t>(outline.lines[i])]);
+  }
+  for (std::size_t k = 0; k < cloud.parts.size(); ++k) {
+    const Eigen::Isometry3f move = corrections[k].cast<float>();
+    for (std::size_t i = cloud.parts[k].begin; i < cloud.parts[k].end; ++i)
+      cloud.points_m[i] = move * cloud.points_m[i];
+    cloud.parts[k].scanner_m = corrections[k] * scanners[k];
+  }
+  storey.floor_z_m = room.planes[0].middle.z();
+  storey.ceiling_z_m = room.planes[1].middle.z();
+  return room;
+}
+
+void measure_extent(RoomObservation& room, const MeasuredRoom& measured) {
   // The main direction: the one that most wall length runs along or across, modulo a quarter turn.
   double sine = 0, cosine = 0;
   for (const WallObservation& wall : room.walls) {
@@ -120,34 +133,30 @@ void measure_extent(RoomObservation& room) {
   const double turn = std::atan2(sine, cosine) / 4;  // within an eighth turn of the frame's x axis
   room.axis = Vec2(std::cos(turn), std::sin(turn));
   const auto extent = [&](const Vec2& axis) {
-    // The faces at both ends: the outermost walls that stand across the axis; their mean place along it.
-    double low = 1e300, high = -1e300, low_sigma = 0, high_sigma = 0;
-    bool found_low = false, found_high = false;
-    for (const WallObservation& wall : room.walls) {
-      const Vec2 way = (wall.b - wall.a).normalized();
+    // From the outermost face at one end to that at the other, each at the middle of its wall; where no wall stands across
+    // the axis at an end, the outermost corner.
+    struct End {
+      double place = -1e300;
+      int plane = -1;
+    } ends[2];
+    for (std::size_t i = 0; i < room.walls.size(); ++i) {
+      const Vec2 way = (room.walls[i].b - room.walls[i].a).normalized();
       if (std::abs(way.dot(axis)) > 0.1) continue;
-      const double place = axis.dot((wall.a + wall.b) / 2);
-      const bool at_high = Vec2(way.y(), -way.x()).dot(axis) > 0;  // the room lies left of its walls
-      if (at_high && (!found_high || place > high)) {
-        high = place;
-        high_sigma = wall.sigma_m;
-        found_high = true;
-      }
-      if (!at_high && (!found_low || place < low)) {
-        low = place;
-        low_sigma = wall.sigma_m;
-        found_low = true;
-      }
+      const int high = Vec2(way.y(), -way.x()).dot(axis) > 0;  // the room lies left of its walls
+      const double place = (high ? 1 : -1) * axis.dot((room.walls[i].a + room.walls[i].b) / 2);
+      if (place > ends[high].place) ends[high] = {place, measured.plane_of_edge[i]};
     }
-    for (const Vec2& corner : room.outline) {  // no wall across the axis at an end: the outermost corner
-      const double place = axis.dot(corner);
-      if (!found_low) low = std::min(low, place), low_sigma = 0.03;
-      if (!found_high) high = std::max(high, place), high_sigma = 0.03;
-    }
-    return Measured{high - low, std::hypot(low_sigma, high_sigma)};
+    for (const int high : {0, 1})
+      if (ends[high].plane < 0)
+        for (const Vec2& corner : room.outline)
+          ends[high].place = std::max(ends[high].place, (high ? 1 : -1) * axis.dot(corner));
+    const double sigma =
+        ends[0].plane >= 0 && ends[1].plane >= 0 ? measured.distance_sigma_m(ends[0].plane, ends[1].plane) : 0.05;
+    return Measured{ends[0].place + ends[1].place, sigma};
   };
   room.width = extent(room.axis);
   room.depth = extent(Vec2(-room.axis.y(), room.axis.x()));
+  room.height = {room.ceiling_z_m - room.floor_z_m, measured.distance_sigma_m(0, 1)};
 }
 
 }  // namespace gramap

@@ -1,22 +1,25 @@
-// The outline's walls measured anew on all their points, and the room's width, depth and height with their
-// deviations.
+// The room's planes measured on all their points and all scans together, and the width, depth and height that follow.
 #pragma once
 
+#include "perception/adjust.h"
 #include "perception/observation.h"
 #include "perception/outline.h"
 
 namespace gramap {
 
-/// Fits each line of the outline to the points along its edges; moves the outline's corners with them.
-struct MeasuredWall {
-  double sigma_m = 0;
-  double rms_m = 0;
-  int support = 0;
-};
-std::vector<MeasuredWall> measure_walls(RoomOutline& outline, std::vector<WallLine>& lines,
-                                        const RegisteredCloud& cloud, const Storey& storey);
+/// Floor, ceiling and the outline's lines, adjusted together with the scans' poses. Moves the lines, the outline's
+/// corners, the storey's levels and the cloud's points to where they fit best.
+struct MeasuredRoom {
+  std::vector<AdjustedPlane> planes;  ///< floor, ceiling, then the planes of the outline's lines
+  std::vector<int> plane_of_edge;     ///< into planes
+  Adjustment adjustment;
 
-/// Fills width, depth and axis of an observation whose outline and walls are known.
-void measure_extent(RoomObservation& observation);
+  /// Standard deviation of the distance between two planes that face each other.
+  double distance_sigma_m(int a, int b) const;
+};
+MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, Storey& storey, RegisteredCloud& cloud);
+
+/// Fills axis, width, depth and height with their deviations of an observation whose walls are known.
+void measure_extent(RoomObservation& observation, const MeasuredRoom& measured);
 
 }  // namespace gramap

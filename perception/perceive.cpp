@@ -1,5 +1,6 @@
 #include "perception/perceive.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -51,8 +52,7 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
         found.planes.size(), found.walls.size());
     throw InputError({room}, text, "scan every wall of the room, up to the ceiling");
   }
-  const std::vector<MeasuredWall> measured =
-      measure_walls(found.outline, found.walls, found.cloud, found.storey);
+  const MeasuredRoom measured = measure_room(found.outline, found.walls, found.storey, found.cloud);
 
   RoomObservation& seen = found.observation;
   const Vec3& origin = found.cloud.origin_m;
@@ -65,17 +65,16 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
     WallObservation wall;
     wall.a = seen.outline[i];
     wall.b = seen.outline[(i + 1) % seen.outline.size()];
-    wall.sigma_m = measured[i].sigma_m;
-    wall.plane_rms_m = measured[i].rms_m;
-    wall.support = measured[i].support;
+    const int plane = measured.plane_of_edge[i];
+    wall.sigma_m = std::sqrt(measured.adjustment.covariance(plane, plane));
+    wall.plane_rms_m = measured.planes[static_cast<std::size_t>(plane)].rms_m;
+    wall.support = static_cast<int>(std::min<std::size_t>(measured.planes[static_cast<std::size_t>(plane)].support, 2000000000));
     wall.seen_share = found.outline.wall_share[i];
     seen.walls.push_back(wall);
   }
   seen.floor_z_m = found.storey.floor_z_m + origin.z();
   seen.ceiling_z_m = found.storey.ceiling_z_m + origin.z();
-  seen.height = {found.storey.height_m(),
-                 std::hypot(found.storey.floor_sigma_m, found.storey.ceiling_sigma_m)};
-  measure_extent(seen);
+  measure_extent(seen, measured);
   seen.remarks = found.outline.remarks;
   stages.end("measures");
   return found;

@@ -10,7 +10,7 @@ namespace gramap {
 namespace {
 
 struct Level {
-  double z_m, area_m2, rms_m;
+  double z_m, area_m2, band_m;
   std::size_t support;
 };
 
@@ -29,8 +29,8 @@ Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud&
   for (const PlanePatch& plane : planes) {
     if (1 - std::abs(plane.normal.z()) > options.vertical_epsilon * options.vertical_epsilon) continue;
     const double z = (plane.rho_m - plane.normal.head<2>().dot(middle)) / plane.normal.z();
-    if (z < lowest - 0.1) under.push_back({z, plane.area_m2, plane.rms_m, plane.support});
-    if (z > highest + 0.1) above.push_back({z, plane.area_m2, plane.rms_m, plane.support});
+    if (z < lowest - 0.1) under.push_back({z, plane.area_m2, plane.band_m, plane.support});
+    if (z > highest + 0.1) above.push_back({z, plane.area_m2, plane.band_m, plane.support});
   }
   const auto fail = [&](const char* what, std::size_t candidates) {
     char text[200];
@@ -53,8 +53,8 @@ Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud&
   Storey storey;
   storey.floor_z_m = floor.z_m;
   storey.ceiling_z_m = ceiling.z_m;
-  storey.floor_sigma_m = floor.rms_m / std::sqrt(static_cast<double>(cloud.parts.size()));
-  storey.ceiling_sigma_m = ceiling.rms_m / std::sqrt(static_cast<double>(cloud.parts.size()));
+  storey.floor_band_m = floor.band_m;
+  storey.ceiling_band_m = ceiling.band_m;
   return storey;
 }
 

@@ -12,7 +12,7 @@ namespace gramap {
 /// The room's level planes: heights of floor and ceiling in the cloud's frame.
 struct Storey {
   double floor_z_m = 0, ceiling_z_m = 0;
-  double floor_sigma_m = 0, ceiling_sigma_m = 0;
+  double floor_band_m = 0.03, ceiling_band_m = 0.03;  ///< points up to this far off are their own
   double height_m() const { return ceiling_z_m - floor_z_m; }
 };
 
