@@ -11,18 +11,14 @@ using Block = Eigen::Matrix<double, 9, 9>;
 using Pose = Eigen::Matrix<double, 6, 1>;
 using PoseBlock = Eigen::Matrix<double, 6, 6>;
 
-/// One scan's view of one plane: sums over its points.
+/// One scan's view of one plane: weighted sums over its points.
 struct View {
-  double count = 0, sum = 0, squares = 0;
+  double count = 0, weight = 0;
   Block outer = Block::Zero();
   Row right = Row::Zero();
 
-  /// Information per point: points average their own noise, never what the whole view has in common.
-  double weight(double systematic_m) const {
-    const double mean = sum / count;
-    const double variance = std::max(squares / count - mean * mean, 1e-6);
-    return 1 / (variance + count * systematic_m * systematic_m);
-  }
+  /// Points average their own noise, never what the whole view has in common.
+  double share(double systematic_m) const { return 1 / (1 + weight * systematic_m * systematic_m); }
 };
 
 }  // namespace
@@ -38,11 +34,11 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
     Row row;
     row << plane.normal, arm.cross(plane.normal), -1, -plane.u.dot(offset), -plane.v.dot(offset);
     View& view = views[point.part * count + point.plane];
+    const double weight = 1 / (point.sigma_m * point.sigma_m);
     view.count += 1;
-    view.sum += residual;
-    view.squares += residual * residual;
-    view.outer.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    view.right -= residual * row;
+    view.weight += weight;
+    view.outer.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+    view.right -= weight * residual * row;
   }
   for (View& view : views) view.outer = view.outer.selfadjointView<Eigen::Lower>();
 
@@ -73,7 +69,7 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
       for (std::size_t p = 0; p < count; ++p) {
         const View& view = views[k * count + p];
         if (view.count < 5) continue;
-        const double weight = view.weight(options.systematic_m);
+        const double weight = view.share(options.systematic_m);
         const auto at = static_cast<Eigen::Index>(3 * p);
         own += weight * view.outer.topLeftCorner<6, 6>();
         coupling[k].middleCols<3>(at) += weight * view.outer.topRightCorner<6, 3>();
@@ -125,8 +121,7 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
   std::vector<double> squares(count);
   for (AdjustedPlane& plane : planes) plane.support = 0;
   for (const PlanePoint& point : points) {
-    const double distance = planes[point.plane].normal.dot(
-        result.corrected_from_registered[point.part] * point.point_m - planes[point.plane].middle);
+    const double distance = residual_m(point, planes, result.corrected_from_registered);
     squares[point.plane] += distance * distance;
     ++planes[point.plane].support;
   }

@@ -31,9 +31,17 @@ struct AdjustedPlane {
 /// A point of a scan on a plane.
 struct PlanePoint {
   Vec3 point_m;
-  std::uint32_t part = 0;   ///< the scan
+  double sigma_m = 0.01;   ///< noise of its distance from the plane
+  std::uint32_t part = 0;  ///< the scan
   std::uint32_t plane = 0;
 };
+
+/// Distance of a point, moved by its scan's correction, from its plane.
+inline double residual_m(const PlanePoint& point, const std::vector<AdjustedPlane>& planes,
+                         const std::vector<Eigen::Isometry3d>& corrections) {
+  const AdjustedPlane& plane = planes[point.plane];
+  return plane.normal.dot(corrections[point.part] * point.point_m - plane.middle);
+}
 
 struct AdjustOptions {
   double systematic_m = 0.001;      ///< error of one scan's view of one plane that more points do not lessen

@@ -8,38 +8,72 @@
 namespace gramap {
 namespace {
 
-constexpr std::size_t kMeasuredPoints = 300000;  // enough: what is left of the error is not the points' noise
+constexpr std::size_t kMeasuredPoints = 100000;  // enough: what is left of the error is not the points' noise
 
 struct Stretch {
   double from, to;
 };
 
-/// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold points of two planes, and are left out.
-std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const std::vector<double>& bands,
+/// The noise of points by their distance from the scanner, learned from how far they lie from the planes: a depth camera's
+/// grows with the square of the distance, a laser's hardly at all.
+class RangeNoise {
+ public:
+  double at(double range_m) const { return sigma_m_[bin(range_m)]; }
+
+  void learn(const std::vector<PlanePoint>& points, const std::vector<AdjustedPlane>& planes,
+             const std::vector<Vec3>& scanners, const std::vector<Eigen::Isometry3d>& corrections) {
+    std::vector<std::vector<float>> residuals(kBins);
+    for (const PlanePoint& point : points)
+      residuals[bin((point.point_m - scanners[point.part]).norm())].push_back(
+          static_cast<float>(std::abs(residual_m(point, planes, corrections))));
+    double last = kLargest;
+    for (std::size_t b = 0; b < kBins; ++b) {
+      std::vector<float>& list = residuals[b];
+      if (list.size() >= 50) {
+        const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+        std::nth_element(list.begin(), middle, list.end());
+        last = std::clamp(1.4826 * static_cast<double>(*middle), 0.001, kLargest);
+      }
+      sigma_m_[b] = last;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBins = 40;
+  static constexpr double kLargest = 0.03;
+  static std::size_t bin(double range_m) { return std::min(kBins - 1, static_cast<std::size_t>(range_m / 0.5)); }
+  std::vector<double> sigma_m_ = std::vector<double>(kBins, kLargest / 1.5);
+};
+
+/// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold points of two
+/// planes, and are left out.
+std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const RangeNoise& noise,
                                const std::vector<std::vector<Stretch>>& stretches, const Polygon& ring,
-                               const RegisteredCloud& cloud, const std::vector<Eigen::Isometry3d>& corrections) {
+                               const RegisteredCloud& cloud, const std::vector<Vec3>& scanners,
+                               const std::vector<Eigen::Isometry3d>& corrections) {
   std::vector<PlanePoint> points;
   const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kMeasuredPoints);
   const double low = planes[0].middle.z() + 0.1, high = planes[1].middle.z() - 0.1;
   for (std::uint32_t part = 0; part < cloud.parts.size(); ++part)
     for (std::size_t i = cloud.parts[part].begin; i < cloud.parts[part].end; i += step) {
       const Vec3 raw = cloud.points_m[i].cast<double>(), p = corrections[part] * raw;
+      const double sigma = noise.at((raw - scanners[part]).norm()), band = 3 * sigma;
       if (p.z() > low && p.z() < high) {
         for (std::uint32_t w = 2; w < planes.size(); ++w) {
           const AdjustedPlane& plane = planes[w];
           const Vec3 offset = p - plane.middle;
-          if (std::abs(plane.normal.dot(offset)) > bands[w]) continue;
+          if (std::abs(plane.normal.dot(offset)) > band) continue;
           const double along = plane.u.dot(offset);
           const auto on = [&](const Stretch& s) { return along >= s.from && along <= s.to; };
           if (std::any_of(stretches[w].begin(), stretches[w].end(), on)) {
-            points.push_back({raw, part, w});
+            points.push_back({raw, sigma, part, w});
             break;
           }
         }
       } else {
         for (std::uint32_t level = 0; level < 2; ++level)
-          if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= bands[level] && contains(ring, p.head<2>()))
-            points.push_back({raw, part, level});
+          if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= band && contains(ring, p.head<2>()))
+            points.push_back({raw, sigma, part, level});
       }
     }
   return points;
@@ -63,7 +97,6 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     level.u_slope_sigma = level.v_slope_sigma = 0.003;
     room.planes.push_back(level);
   }
-  std::vector<double> bands = {std::max(0.03, storey.floor_band_m), std::max(0.03, storey.ceiling_band_m)};
   std::vector<int> plane_of_line(lines.size(), -1);
   for (std::size_t i = 0; i < edges; ++i) {
     const auto l = static_cast<std::size_t>(outline.lines[i]);
@@ -77,16 +110,16 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
       wall.v = Vec3::UnitZ();
       wall.middle << Vec2(middle - line.distance(middle) * line.normal), (storey.floor_z_m + storey.ceiling_z_m) / 2;
       room.planes.push_back(wall);
-      bands.push_back(line.band_m);
     }
     room.plane_of_edge.push_back(plane_of_line[l]);
   }
   std::vector<Vec3> scanners;
   for (const RegisteredCloud::Part& part : cloud.parts) scanners.push_back(part.scanner_m);
 
+  RangeNoise noise;
   // Every round starts from the scans as they came: what is known of their errors beforehand is used once.
   std::vector<Eigen::Isometry3d> corrections(scanners.size(), Eigen::Isometry3d::Identity());
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 8; ++round) {
     std::vector<std::vector<Stretch>> stretches(room.planes.size());
     for (std::size_t i = 0; i < edges; ++i) {
       const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(room.plane_of_edge[i])];
@@ -95,10 +128,10 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
       const double shrink = std::min(0.06, std::abs(a - b) / 4);
       stretches[static_cast<std::size_t>(room.plane_of_edge[i])].push_back({std::min(a, b) + shrink, std::max(a, b) - shrink});
     }
-    const std::vector<PlanePoint> points = gather(room.planes, bands, stretches, outline.ring, cloud, corrections);
+    const std::vector<PlanePoint> points = gather(room.planes, noise, stretches, outline.ring, cloud, scanners, corrections);
     room.adjustment = adjust(room.planes, points, scanners);
     corrections = room.adjustment.corrected_from_registered;
-    for (std::size_t p = 0; p < room.planes.size(); ++p) bands[p] = std::clamp(3 * room.planes[p].rms_m, 0.012, bands[p]);
+    noise.learn(points, room.planes, scanners, corrections);
     for (std::size_t l = 0; l < lines.size(); ++l) {
       if (plane_of_line[l] < 0) continue;
       const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(plane_of_line[l])];
