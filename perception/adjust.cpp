@@ -6,7 +6,8 @@
 namespace gramap {
 namespace {
 
-using Row = Eigen::Matrix<double, 9, 1>;     // derivatives by the scan's shift and turn, and the plane's offset and slopes
+using Row = Eigen::Matrix<double, 9,
+                          1>;  // derivatives by the scan's shift and turn, and the plane's offset and slopes
 using Block = Eigen::Matrix<double, 9, 9>;
 using Pose = Eigen::Matrix<double, 6, 1>;
 using PoseBlock = Eigen::Matrix<double, 6, 6>;
@@ -57,7 +58,8 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
       normal(at + 1, at + 1) += 1 / (planes[p].u_slope_sigma * planes[p].u_slope_sigma);
       normal(at + 2, at + 2) += 1 / (planes[p].v_slope_sigma * planes[p].v_slope_sigma);
     }
-    // The scans' corrections are eliminated one by one (Schur complement): the cost grows with scans, not their cube.
+    // The scans' corrections are eliminated one by one (Schur complement): the cost grows with scans, not
+    // their cube.
     std::vector<PoseBlock> inverse(parts);
     std::vector<Eigen::MatrixXd> coupling(parts);
     std::vector<Pose> pose_right(parts, Pose::Zero());
@@ -102,7 +104,8 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
   for (std::size_t k = 0; k < parts; ++k) {
     const Vec3 axis = poses[k].tail<3>();
     Eigen::Isometry3d correction = Eigen::Isometry3d::Identity();
-    if (axis.norm() > 0) correction.linear() = Eigen::AngleAxisd(axis.norm(), axis.normalized()).toRotationMatrix();
+    if (axis.norm() > 0)
+      correction.linear() = Eigen::AngleAxisd(axis.norm(), axis.normalized()).toRotationMatrix();
     correction.translation() = poses[k].head<3>() + scanners[k] - correction.linear() * scanners[k];
     result.corrected_from_registered.push_back(correction);
   }

@@ -1,11 +1,12 @@
 // Scans and walls adjusted to one another.
 //
-// Every scan is a little off (a phone's tracking, a tripod's registration), so the same wall comes out at as many places
-// as there are scans, and the plain mean of all points weights scans by how many points they happen to have on it. Here
-// the planes of the room and a small rigid correction per scan are estimated together by least squares on the distances
-// of points from planes (a bundle adjustment of planes). A scan that sees two opposite walls then no longer moves their
-// distance, whatever its own error. How far scans are off is estimated too, as a variance component by expectation
-// maximisation, so that the deviations that come out can be trusted.
+// Every scan is a little off (a phone's tracking, a tripod's registration), so the same wall comes out at as
+// many places as there are scans, and the plain mean of all points weights scans by how many points they
+// happen to have on it. Here the planes of the room and a small rigid correction per scan are estimated
+// together by least squares on the distances of points from planes (a bundle adjustment of planes). A scan
+// that sees two opposite walls then no longer moves their distance, whatever its own error. How far scans are
+// off is estimated too, as a variance component by expectation maximisation, so that the deviations that come
+// out can be trusted.
 #pragma once
 
 #include <Eigen/Dense>
@@ -44,9 +45,9 @@ inline double residual_m(const PlanePoint& point, const std::vector<AdjustedPlan
 }
 
 struct AdjustOptions {
-  double systematic_m = 0.001;      ///< error of one scan's view of one plane that more points do not lessen
-  double start_shift_m = 0.01;      ///< first guess of how far scans are shifted …
-  double start_turn_rad = 0.003;    ///< … and turned
+  double systematic_m = 0.001;    ///< error of one scan's view of one plane that more points do not lessen
+  double start_shift_m = 0.01;    ///< first guess of how far scans are shifted …
+  double start_turn_rad = 0.003;  ///< … and turned
 };
 
 struct Adjustment {

@@ -170,8 +170,8 @@ double trimmed_band(const std::vector<Point>& points, const std::vector<std::uin
 
 /// Grows a candidate into a plane; nothing when it is too small or does not stand out from the points around
 /// it.
-std::optional<PlanePatch> grow(const std::vector<Point>& points, const Candidate& candidate,
-                               const HoughOptions& options) {
+std::optional<PlanePatch> grow(const std::vector<Point>& points, const std::vector<Point>& all,
+                               const Candidate& candidate, const HoughOptions& options) {
   FittedPlane plane{candidate.normal.cast<double>().normalized(), candidate.rho, 0};
   PlanePatch patch;
   std::vector<std::uint32_t> near, inside;
@@ -192,9 +192,10 @@ std::optional<PlanePatch> grow(const std::vector<Point>& points, const Candidate
   patch.rms_m = plane.rms_m;
   patch.band_m = band;
   patch.support = inside.size();
-  // A plane stands out: as much space beside it holds far fewer points.
+  // A plane stands out: as much space beside it holds far fewer points, those of planes found before
+  // included, or it is only the rim of such a plane's noise.
   std::size_t beside = 0;
-  for (const Point& point : points) {
+  for (const Point& point : all) {
     const Vec3 p = point.cast<double>();
     const double distance = std::abs(patch.distance(p));
     if (distance > 1.5 * band && distance <= 3.5 * band && patch.covers(p)) ++beside;
@@ -262,6 +263,7 @@ std::vector<PlanePatch> detect_planes(std::span<const Point> points, const Hough
 
   Neighbourhood near(sampled(points, static_cast<std::size_t>(options.sample), centre, random),
                      options.max_pair_m / 2);
+  const std::vector<Point> all = near.points();
   BallAccumulator votes(options.angle_cell_rad, options.rho_cell_m);
   std::vector<std::uint8_t> taken;
   int trials = 0, refusals = 0;  // since the last plane
@@ -269,7 +271,7 @@ std::vector<PlanePatch> detect_planes(std::span<const Point> points, const Hough
          near.points().size() >= static_cast<std::size_t>(options.min_support)) {
     const std::optional<Candidate> candidate = draw_candidate(near, votes, random, options, trials);
     if (!candidate) break;
-    const std::optional<PlanePatch> patch = grow(near.points(), *candidate, options);
+    const std::optional<PlanePatch> patch = grow(near.points(), all, *candidate, options);
     if (!patch) {
       if (++refusals == options.max_refusals) break;
       continue;

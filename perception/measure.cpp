@@ -14,8 +14,8 @@ struct Stretch {
   double from, to;
 };
 
-/// The noise of points by their distance from the scanner, learned from how far they lie from the planes: a depth camera's
-/// grows with the square of the distance, a laser's hardly at all.
+/// The noise of points by their distance from the scanner, learned from how far they lie from the planes: a
+/// depth camera's grows with the square of the distance, a laser's hardly at all.
 class RangeNoise {
  public:
   double at(double range_m) const { return sigma_m_[bin(range_m)]; }
@@ -41,12 +41,14 @@ class RangeNoise {
  private:
   static constexpr std::size_t kBins = 40;
   static constexpr double kLargest = 0.03;
-  static std::size_t bin(double range_m) { return std::min(kBins - 1, static_cast<std::size_t>(range_m / 0.5)); }
+  static std::size_t bin(double range_m) {
+    return std::min(kBins - 1, static_cast<std::size_t>(range_m / 0.5));
+  }
   std::vector<double> sigma_m_ = std::vector<double>(kBins, kLargest / 1.5);
 };
 
-/// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold points of two
-/// planes, and are left out.
+/// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold
+/// points of two planes, and are left out.
 std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const RangeNoise& noise,
                                const std::vector<std::vector<Stretch>>& stretches, const Polygon& ring,
                                const RegisteredCloud& cloud, const std::vector<Vec3>& scanners,
@@ -72,7 +74,8 @@ std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const R
         }
       } else {
         for (std::uint32_t level = 0; level < 2; ++level)
-          if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= band && contains(ring, p.head<2>()))
+          if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= band &&
+              contains(ring, p.head<2>()))
             points.push_back({raw, sigma, part, level});
       }
     }
@@ -83,13 +86,14 @@ std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const R
 
 double MeasuredRoom::distance_sigma_m(int a, int b) const {
   const Eigen::MatrixXd& c = adjustment.covariance;
-  const double sign = planes[static_cast<std::size_t>(a)].normal.dot(planes[static_cast<std::size_t>(b)].normal) > 0 ? 1 : -1;
+  const double sign =
+      planes[static_cast<std::size_t>(a)].normal.dot(planes[static_cast<std::size_t>(b)].normal) > 0 ? 1 : -1;
   return std::sqrt(std::max(0.0, c(a, a) + c(b, b) - 2 * sign * c(a, b)));
 }
 
-MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, Storey& storey, RegisteredCloud& cloud) {
+MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, Storey& storey,
+                          RegisteredCloud& cloud, double min_edge_m) {
   MeasuredRoom room;
-  const std::size_t edges = outline.ring.size();
   const Vec2 centre = centroid(outline.ring);
   for (const double z : {storey.floor_z_m, storey.ceiling_z_m}) {
     AdjustedPlane level;
@@ -98,20 +102,20 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     room.planes.push_back(level);
   }
   std::vector<int> plane_of_line(lines.size(), -1);
-  for (std::size_t i = 0; i < edges; ++i) {
+  for (std::size_t i = 0; i < outline.lines.size(); ++i) {
     const auto l = static_cast<std::size_t>(outline.lines[i]);
     if (plane_of_line[l] < 0) {
       plane_of_line[l] = static_cast<int>(room.planes.size());
       const WallLine& line = lines[l];
       AdjustedPlane wall;
-      const Vec2 middle = (outline.ring[i] + outline.ring[(i + 1) % edges]) / 2;
+      const Vec2 middle = (outline.ring[i] + outline.ring[(i + 1) % outline.ring.size()]) / 2;
       wall.normal << line.normal, 0;
       wall.u << line.direction(), 0;
       wall.v = Vec3::UnitZ();
-      wall.middle << Vec2(middle - line.distance(middle) * line.normal), (storey.floor_z_m + storey.ceiling_z_m) / 2;
+      wall.middle << Vec2(middle - line.distance(middle) * line.normal),
+          (storey.floor_z_m + storey.ceiling_z_m) / 2;
       room.planes.push_back(wall);
     }
-    room.plane_of_edge.push_back(plane_of_line[l]);
   }
   std::vector<Vec3> scanners;
   for (const RegisteredCloud::Part& part : cloud.parts) scanners.push_back(part.scanner_m);
@@ -120,15 +124,22 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
   // Every round starts from the scans as they came: what is known of their errors beforehand is used once.
   std::vector<Eigen::Isometry3d> corrections(scanners.size(), Eigen::Isometry3d::Identity());
   for (int round = 0; round < 8; ++round) {
+    tidy(outline, lines, min_edge_m);
+    const std::size_t edges = outline.ring.size();
+    room.plane_of_edge.clear();
+    for (const int line : outline.lines)
+      room.plane_of_edge.push_back(plane_of_line[static_cast<std::size_t>(line)]);
     std::vector<std::vector<Stretch>> stretches(room.planes.size());
     for (std::size_t i = 0; i < edges; ++i) {
       const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(room.plane_of_edge[i])];
       const double a = plane.u.head<2>().dot(outline.ring[i] - plane.middle.head<2>());
       const double b = plane.u.head<2>().dot(outline.ring[(i + 1) % edges] - plane.middle.head<2>());
       const double shrink = std::min(0.06, std::abs(a - b) / 4);
-      stretches[static_cast<std::size_t>(room.plane_of_edge[i])].push_back({std::min(a, b) + shrink, std::max(a, b) - shrink});
+      stretches[static_cast<std::size_t>(room.plane_of_edge[i])].push_back(
+          {std::min(a, b) + shrink, std::max(a, b) - shrink});
     }
-    const std::vector<PlanePoint> points = gather(room.planes, noise, stretches, outline.ring, cloud, scanners, corrections);
+    const std::vector<PlanePoint> points =
+        gather(room.planes, noise, stretches, outline.ring, cloud, scanners, corrections);
     room.adjustment = adjust(room.planes, points, scanners);
     corrections = room.adjustment.corrected_from_registered;
     noise.learn(points, room.planes, scanners, corrections);
@@ -166,8 +177,8 @@ void measure_extent(RoomObservation& room, const MeasuredRoom& measured) {
   const double turn = std::atan2(sine, cosine) / 4;  // within an eighth turn of the frame's x axis
   room.axis = Vec2(std::cos(turn), std::sin(turn));
   const auto extent = [&](const Vec2& axis) {
-    // From the outermost face at one end to that at the other, each at the middle of its wall; where no wall stands across
-    // the axis at an end, the outermost corner.
+    // From the outermost face at one end to that at the other, each at the middle of its wall; where no wall
+    // stands across the axis at an end, the outermost corner.
     struct End {
       double place = -1e300;
       int plane = -1;
@@ -183,8 +194,9 @@ void measure_extent(RoomObservation& room, const MeasuredRoom& measured) {
       if (ends[high].plane < 0)
         for (const Vec2& corner : room.outline)
           ends[high].place = std::max(ends[high].place, (high ? 1 : -1) * axis.dot(corner));
-    const double sigma =
-        ends[0].plane >= 0 && ends[1].plane >= 0 ? measured.distance_sigma_m(ends[0].plane, ends[1].plane) : 0.05;
+    const double sigma = ends[0].plane >= 0 && ends[1].plane >= 0
+                             ? measured.distance_sigma_m(ends[0].plane, ends[1].plane)
+                             : 0.05;
     return Measured{ends[0].place + ends[1].place, sigma};
   };
   room.width = extent(room.axis);

@@ -1,4 +1,5 @@
-// The room's planes measured on all their points and all scans together, and the width, depth and height that follow.
+// The room's planes measured on all their points and all scans together, and the width, depth and height that
+// follow.
 #pragma once
 
 #include "perception/adjust.h"
@@ -7,8 +8,8 @@
 
 namespace gramap {
 
-/// Floor, ceiling and the outline's lines, adjusted together with the scans' poses. Moves the lines, the outline's
-/// corners, the storey's levels and the cloud's points to where they fit best.
+/// Floor, ceiling and the outline's lines, adjusted together with the scans' poses. Moves the lines, the
+/// outline's corners, the storey's levels and the cloud's points to where they fit best.
 struct MeasuredRoom {
   std::vector<AdjustedPlane> planes;  ///< floor, ceiling, then the planes of the outline's lines
   std::vector<int> plane_of_edge;     ///< into planes
@@ -17,7 +18,8 @@ struct MeasuredRoom {
   /// Standard deviation of the distance between two planes that face each other.
   double distance_sigma_m(int a, int b) const;
 };
-MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, Storey& storey, RegisteredCloud& cloud);
+MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, Storey& storey,
+                          RegisteredCloud& cloud, double min_edge_m);
 
 /// Fills axis, width, depth and height with their deviations of an observation whose walls are known.
 void measure_extent(RoomObservation& observation, const MeasuredRoom& measured);

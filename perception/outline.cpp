@@ -11,6 +11,13 @@
 #include "perception/min_cut.h"
 
 namespace gramap {
+
+Vec2 crossing_of(const WallLine& a, const WallLine& b) {
+  Eigen::Matrix2d normals;
+  normals << a.normal.transpose(), b.normal.transpose();
+  return normals.partialPivLu().solve(Vec2(a.rho_m, b.rho_m));
+}
+
 namespace {
 
 struct CellEvidence {
@@ -59,12 +66,6 @@ std::vector<CellEvidence> look_into(const PlanCells& cells, const FreeSpace& spa
   return evidence;
 }
 
-/// Share of the edge between two corners that is wall.
-double wall_share_of(const WallLine& line, const Vec2& a, const Vec2& b) {
-  const double from = line.direction().dot(a), to = line.direction().dot(b);
-  return line.wall_share(std::min(from, to), std::max(from, to));
-}
-
 /// The cells that are room: the side of the source of the minimum cut.
 std::vector<bool> label(const PlanCells& cells, const std::vector<CellEvidence>& evidence,
                         const std::vector<WallLine>& lines, const OutlineOptions& options) {
@@ -84,7 +85,7 @@ std::vector<bool> label(const PlanCells& cells, const std::vector<CellEvidence>&
       if (beyond < static_cast<int>(c)) continue;
       const Vec2 &a = cells.corners[static_cast<std::size_t>(cell.corners[i])],
                  &b = cells.corners[static_cast<std::size_t>(cell.corners[(i + 1) % cell.corners.size()])];
-      const double share = wall_share_of(lines[static_cast<std::size_t>(cell.lines[i])], a, b);
+      const double share = lines[static_cast<std::size_t>(cell.lines[i])].wall_share(a, b);
       const double cost = options.border_cost_m * (b - a).norm() * (1 - share);
       graph.connect(c, static_cast<std::size_t>(beyond), cost, cost);
     }
@@ -121,12 +122,47 @@ void keep_scanned_part(const PlanCells& cells, const std::vector<CellEvidence>& 
   for (std::size_t c = 0; c < room.size(); ++c) room[c] = part[c] == best;
 }
 
+bool nearly_parallel(const WallLine& a, const WallLine& b) {
+  return std::abs(a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x()) < 0.17;
+}
+
 }  // namespace
 
-Vec2 crossing_of(const WallLine& a, const WallLine& b) {
-  Eigen::Matrix2d normals;
-  normals << a.normal.transpose(), b.normal.transpose();
-  return normals.partialPivLu().solve(Vec2(a.rho_m, b.rho_m));
+void tidy(RoomOutline& outline, const std::vector<WallLine>& lines, double min_edge_m) {
+  const auto line = [&](std::size_t edge) -> const WallLine& {
+    return lines[static_cast<std::size_t>(outline.lines[edge])];
+  };
+  while (outline.lines.size() > 3) {
+    const std::size_t n = outline.lines.size();
+    std::size_t drop = n;
+    for (std::size_t i = 0; i < n && drop == n; ++i) {
+      const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+      if (outline.lines[i] == outline.lines[after]) {
+        drop = after;
+      } else if (nearly_parallel(line(i), line(after))) {
+        const auto length = [&](std::size_t edge) {
+          return (outline.ring[(edge + 1) % n] - outline.ring[edge]).norm();
+        };
+        const std::size_t weak = length(i) < length(after) ? i : after, strong = weak == i ? after : i;
+        const double far = std::max(std::abs(line(strong).distance(outline.ring[weak])),
+                                    std::abs(line(strong).distance(outline.ring[(weak + 1) % n])));
+        if (far < min_edge_m) drop = weak;
+      } else if ((outline.ring[after] - outline.ring[i]).norm() < min_edge_m) {
+        if (nearly_parallel(line(before), line(after)))
+          outline.lines[line(before).support < line(after).support ? before : after] =
+              outline.lines[line(before).support < line(after).support ? after : before];
+        drop = i;
+      }
+    }
+    if (drop == n) return;
+    outline.lines.erase(outline.lines.begin() + static_cast<std::ptrdiff_t>(drop));
+    const std::size_t m = outline.lines.size();
+    outline.ring.resize(m);
+    for (std::size_t i = 0; i < m; ++i) {
+      const WallLine &a = line((i + m - 1) % m), &b = line(i);
+      if (outline.lines[(i + m - 1) % m] != outline.lines[i]) outline.ring[i] = crossing_of(a, b);
+    }
+  }
 }
 
 RoomOutline room_outline(const std::vector<WallLine>& lines, const FreeSpace& space,
@@ -193,9 +229,7 @@ RoomOutline room_outline(const std::vector<WallLine>& lines, const FreeSpace& sp
     outline.lines.push_back(outer.lines[i]);
     outline.ring.push_back(cells.corners[static_cast<std::size_t>(outer.corners[i])]);
   }
-  for (std::size_t i = 0; i < outline.ring.size(); ++i)
-    outline.wall_share.push_back(wall_share_of(lines[static_cast<std::size_t>(outline.lines[i])],
-                                               outline.ring[i], outline.ring[(i + 1) % outline.ring.size()]));
+  tidy(outline, lines, options.min_edge_m);
   return outline;
 }
 

@@ -52,7 +52,8 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
         found.planes.size(), found.walls.size());
     throw InputError({room}, text, "scan every wall of the room, up to the ceiling");
   }
-  const MeasuredRoom measured = measure_room(found.outline, found.walls, found.storey, found.cloud);
+  const MeasuredRoom measured =
+      measure_room(found.outline, found.walls, found.storey, found.cloud, options.outline.min_edge_m);
 
   RoomObservation& seen = found.observation;
   const Vec3& origin = found.cloud.origin_m;
@@ -68,8 +69,10 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
     const int plane = measured.plane_of_edge[i];
     wall.sigma_m = std::sqrt(measured.adjustment.covariance(plane, plane));
     wall.plane_rms_m = measured.planes[static_cast<std::size_t>(plane)].rms_m;
-    wall.support = static_cast<int>(std::min<std::size_t>(measured.planes[static_cast<std::size_t>(plane)].support, 2000000000));
-    wall.seen_share = found.outline.wall_share[i];
+    wall.support = static_cast<int>(
+        std::min<std::size_t>(measured.planes[static_cast<std::size_t>(plane)].support, 2000000000));
+    wall.seen_share = found.walls[static_cast<std::size_t>(found.outline.lines[i])].wall_share(
+        found.outline.ring[i], found.outline.ring[(i + 1) % found.outline.ring.size()]);
     seen.walls.push_back(wall);
   }
   seen.floor_z_m = found.storey.floor_z_m + origin.z();

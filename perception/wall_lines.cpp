@@ -8,34 +8,30 @@ namespace {
 
 constexpr std::size_t kEvidencePoints = 200000;
 
-/// Vertical planes as lines; those of the same wall merged, weighted by support.
+/// Vertical planes as lines; those of the same wall merged. The strongest plane gives the line: a weaker one
+/// whose whole length lies along it is a piece of the same wall, or the rim of its noise.
 std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const WallOptions& options) {
   std::vector<WallLine> lines;
   for (const PlanePatch& plane : planes) {
     if (std::abs(plane.normal.z()) > options.vertical_epsilon) continue;
-    const Vec3 centre3 = plane.corner + plane.u * (plane.columns * plane.cell_m / 2) +
-                         plane.v * (plane.rows * plane.cell_m / 2);
-    const Vec2 centre = centre3.head<2>();
-    Vec2 normal = plane.normal.head<2>().normalized();
-    const double rho = normal.dot(centre);
-    bool known = false;
-    for (WallLine& line : lines) {
-      const double cosine = normal.dot(line.normal);
-      if (std::abs(cosine) < std::cos(options.merge_angle_rad)) continue;
-      if (std::abs(line.distance(centre)) > options.merge_distance_m) continue;
-      // The stronger plane keeps the direction; a short piece's normal would only spoil it.
-      line.support += plane.support;
-      known = true;
-      break;
-    }
-    if (known) continue;
+    const Vec3 middle = plane.corner + plane.v * (plane.rows * plane.cell_m / 2);
+    const Vec2 begin = (middle + plane.u * plane.cell_m).head<2>();
+    const Vec2 end = (middle + plane.u * ((plane.columns - 1) * plane.cell_m)).head<2>();
     WallLine line;
-    line.normal = normal;
-    line.rho_m = rho;
+    line.normal = plane.normal.head<2>().normalized();
+    line.rho_m = line.normal.dot((begin + end) / 2);
     line.rms_m = plane.rms_m;
     line.band_m = std::max(plane.band_m, 0.03);
     line.support = plane.support;
-    lines.push_back(line);
+    const auto same = [&](const WallLine& stronger) {
+      const double limit = std::max(options.merge_distance_m, stronger.band_m + plane.band_m);
+      return std::max(std::abs(stronger.distance(begin)), std::abs(stronger.distance(end))) <= limit;
+    };
+    const auto known = std::find_if(lines.begin(), lines.end(), same);
+    if (known == lines.end())
+      lines.push_back(line);
+    else
+      known->support += plane.support;
   }
   return lines;
 }
@@ -79,7 +75,9 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey&
 
 }  // namespace
 
-double WallLine::wall_share(double from_m, double to_m) const {
+double WallLine::wall_share(const Vec2& a, const Vec2& b) const {
+  const double along_a = direction().dot(a), along_b = direction().dot(b);
+  const double from_m = std::min(along_a, along_b), to_m = std::max(along_a, along_b);
   const int samples = std::max(1, static_cast<int>((to_m - from_m) / column_m + 0.5));
   int hits = 0;
   for (int i = 0; i < samples; ++i) hits += is_wall_at(from_m + (to_m - from_m) * (i + 0.5) / samples);

@@ -34,16 +34,15 @@ struct WallLine {
     const double column = (along_m - start_m) / column_m;
     return column >= 0 && column < static_cast<double>(wall.size()) && wall[static_cast<std::size_t>(column)];
   }
-  /// Share of the stretch [from, to] with columns of wall.
-  double wall_share(double from_m, double to_m) const;
+  /// Share of the stretch between two points on the line that is wall.
+  double wall_share(const Vec2& a, const Vec2& b) const;
 };
 
 struct WallOptions {
   double vertical_epsilon = 0.03;  ///< a plane is vertical when |n_z| is below this, level when 1 − |n_z| is
-  double merge_distance_m = 0.08;  ///< parallel planes nearer than this are the same wall
-  double merge_angle_rad = 0.06;
-  double top_band_m = 0.35;   ///< a wall shows up in this band under the ceiling
-  double min_length_m = 0.3;  ///< shorter pieces are no walls
+  double merge_distance_m = 0.06;  ///< a plane that nowhere leaves another by more is the same wall
+  double top_band_m = 0.35;        ///< a wall shows up in this band under the ceiling
+  double min_length_m = 0.3;       ///< shorter pieces are no walls
 };
 
 /// Lines of the planes that reach the ceiling, in the order of support.
