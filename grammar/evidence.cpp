@@ -107,6 +107,12 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
       if (a.centre_m != b.centre_m) return a.centre_m < b.centre_m;
       return a.width_m < b.width_m;
     });
+  for (std::size_t i = 0; i + 1 < rooms_.size(); ++i) {
+    const auto& id = [&](std::size_t e) -> const std::string& {
+      return problem.rooms[static_cast<std::size_t>(rooms_[e].original)].id;
+    };
+    rooms_[i].again = id(i) == id(i + 1) ? 1 : options.duplicate_share;
+  }
 
   if (problem.doors_visible.empty()) return;
   doors_ = problem.doors;

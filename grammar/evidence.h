@@ -9,8 +9,9 @@
 //   end only    the same from b
 //   missed wall the room and the next one were read as one: N(c-m/2; a, s) N(c+m/2; b of the next, s)
 // or it belongs to no room: outlier share x a uniform density. Evidence is ordered by its centre (or as given
-// when a centre is unknown); rooms explain it in that order; several may belong to one room. Beyond
-// kGateSigmas a reading has density zero, which is what keeps the fit's cost linear.
+// when a centre is unknown); rooms explain it in that order; several may belong to one room, which is as
+// rare as the share of duplicates says unless they carry one name. Beyond kGateSigmas a reading has density
+// zero, which is what keeps the fit's cost linear.
 #pragma once
 
 #include <vector>
@@ -53,6 +54,7 @@ struct PreparedEvidence {
   std::vector<double> type_factor;  ///< by room type; last: background
   double type_even = 1;             ///< the factor of a type that nothing is known of
   double aside = 0;                 ///< weight of belonging to no room
+  double again = 1;                 ///< factor when the same room explains this and a later evidence
   double depth_factor = 1;          ///< density of `other` across the line
   double swapped_depth_factor = 0;  ///< density of `width` across the line
   int first_start = 0;              ///< cells at which a room may start that explains it

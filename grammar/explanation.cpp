@@ -182,7 +182,8 @@ std::vector<std::vector<Explained>> explain(const Lattice& lattice, const std::v
       const bool near = e.first_start <= step.cell && step.cell <= e.last_start;
       const double weight =
           near ? belongs(lattice, step.cell, step.width, placed_element(lattice, step), e) : 0;
-      if (j == step.matched || weight > e.aside) explained.push_back(best_reading(lattice, step, j));
+      if (j == step.matched || e.again * weight > e.aside)
+        explained.push_back(best_reading(lattice, step, j));
     }
   }
   return all;

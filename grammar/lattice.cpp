@@ -336,8 +336,8 @@ void Edges::add_matches(std::vector<Move>& moves, const Element& element, const 
       add(moves, 2 * (j + 1), prior.first + first, matched_sum, matched_max, j);
     }
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i] *= weight[i] + e.aside;
-      max[i] *= std::max(weight[i], e.aside);
+      sum[i] *= e.again * weight[i] + e.aside;
+      max[i] *= std::max(e.again * weight[i], e.aside);
     }
   }
 }
