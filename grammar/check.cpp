@@ -31,6 +31,7 @@ std::optional<SymbolRef> Resolver::reference(const syntax::Name& name) {
   for (const auto& [known, index] : rooms) names.push_back(known);
   for (const auto& [known, index] : symbols) names.push_back(known);
   const std::string near = nearest(name.text, names);
+  used.insert(near);
   error("E0201", name.span, "there is no room or symbol `" + name.text + "`",
         !near.empty() ? "did you mean `" + near + "`?"
                       : "define it: `room " + name.text + " { width 2.80 m +- 5 cm; }`, or a rule `" +

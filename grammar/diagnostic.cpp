@@ -38,19 +38,44 @@ std::size_t column_at(std::string_view text, const Line& line, std::size_t posit
   return column;
 }
 
+/// The part of a line that is shown: all of it, or of a very long one what is around the span.
+Line window(std::string_view text, Line line, Span span) {
+  constexpr std::size_t kLongest = 160;
+  constexpr std::size_t kBefore = 60;
+  if (line.end - line.begin <= kLongest) return line;
+  const std::size_t at = std::min(span.begin, line.end);
+  if (at > line.begin + kBefore) line.begin = at - kBefore;
+  line.end = std::min(line.end, line.begin + kLongest);
+  while (line.begin < at && continues_character(text[line.begin])) ++line.begin;
+  while (line.end > at && line.end < text.size() && continues_character(text[line.end])) --line.end;
+  return line;
+}
+
+/// Control characters would move the terminal's cursor.
+std::string printable(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if ((static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7F) c = '?';
+  return out;
+}
+
 /// The source line and a mark under the span. Tabs are kept in the margin below, so the mark stays in place
 /// at any tab width.
 std::string excerpt(std::string_view text, Span span, char mark, const std::string& label,
                     std::size_t margin) {
   const Line line = line_at(text, span.begin);
+  const Line shown = window(text, line, span);
   std::string number = std::to_string(line.number);
   number.insert(0, margin - number.size(), ' ');
-  std::string out = " " + number + " | " + std::string(text.substr(line.begin, line.end - line.begin)) +
-                    "\n " + std::string(margin, ' ') + " | ";
-  for (std::size_t i = line.begin; i < std::min(span.begin, line.end); ++i)
+  const std::string before = shown.begin > line.begin ? "…" : "";
+  const std::string behind = shown.end < line.end ? "…" : "";
+  std::string out = " " + number + " | " + before +
+                    printable(text.substr(shown.begin, shown.end - shown.begin)) + behind + "\n " +
+                    std::string(margin, ' ') + " | " + (before.empty() ? "" : " ");
+  for (std::size_t i = shown.begin; i < std::min(span.begin, shown.end); ++i)
     if (!continues_character(text[i])) out += text[i] == '\t' ? '\t' : ' ';
   std::size_t width = 0;
-  for (std::size_t i = span.begin; i < std::min(span.end, line.end); ++i)
+  for (std::size_t i = span.begin; i < std::min(span.end, shown.end); ++i)
     width += continues_character(text[i]) ? 0 : 1;
   out += std::string(std::max<std::size_t>(width, 1), mark);
   if (!label.empty()) out += " " + label;

@@ -54,11 +54,15 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
     if (token.text == "=") return "write `->` between what is replaced and what replaces it";
     return "a rule is `name: before < Symbol > behind : condition -> body : probability;`";
   }
+  if (which == "`;`") return "a statement ends with `;`";
   if (which == "a statement of the room" || which == "`}`") {
     const std::string near = nearest(token.text, {kBlockWords.begin(), kBlockWords.end()});
     if (!near.empty() && near != token.text) return "did you mean `" + near + "`?";
     if (which == "a statement of the room")
       return "a room says its `width`, `depth`, `door`, `windows`, `furniture`";
+    if (token.kind == Token::Kind::name && !token.starts_line)
+      return "separate two pieces of a block by `,`, or close the block with `}`";
+    return "close the block with `}`";
   }
   if (which == "the axis `x` or `y`") return "`x` cuts along the hallway, `y` away from it";
   if (which == "a piece of the layout")
@@ -615,6 +619,7 @@ File parse(std::string_view text) {
                                 {},
                                 {},
                                 "give the inner part a rule of its own"});
+    file.broken = {"grammar", "start"};  // the rest is not read, so nothing is known to be missing
     return file;
   }
   reader::State state;

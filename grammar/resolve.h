@@ -25,6 +25,8 @@ struct Resolver {
   std::map<std::string, int> rule_indices;
   std::map<std::string, Span> defined;  ///< where each room, symbol and rule is defined
   std::set<std::string> used;           ///< rooms and symbols that some rule's body names
+  std::set<std::pair<std::string, std::string>>
+      said;  ///< room and `width` or `depth`: given, though perhaps with a fault
 
   Diagnostic& error(std::string code, Span span, std::string message, std::string help = "");
   Diagnostic& warning(std::string code, Span span, std::string message, std::string help = "");

@@ -107,6 +107,7 @@ class Body {
   }
 
   void need(const Term& term, const std::string& what) {
+    if (r_.said.contains({term.name.text, what}) || r_.file.broken.contains(term.name.text)) return;
     Diagnostic& fault = r_.error(
         "E0501", term.span,
         "the room `" + term.name.text + "` has no " + what + " of its own, and none is given here",

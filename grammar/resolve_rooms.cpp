@@ -114,6 +114,7 @@ void resolve_rooms(Resolver& r) {
             .labels.push_back({it->second, "the first one"});
         continue;
       }
+      r.said.emplace(room.name, item.word.text);
       if (item.word.text == "width") resolve_width(r, item, room);
       if (item.word.text == "depth") room.depth = r.quantities.normal(*item.quantity, "a depth");
       if (item.word.text == "door") resolve_door(r, item, room);

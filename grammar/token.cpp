@@ -114,7 +114,11 @@ class Lexer {
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (comma) fault(begin, "E0003", "a number is written with a decimal point", "write `" + digits + "`");
-    if (error != std::errc()) fault(begin, "E0004", "this number is too large or too small to be stored", "");
+    if (error != std::errc()) {
+      fault(begin, "E0004", "this number is too large or too small to be stored",
+            "lengths are in metres, `cm` or `mm`");
+      value = 1;  // so that nothing is said of its value on top
+    }
     push(Token::Kind::number, begin, std::move(digits), value);
   }
 
