@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floor/global_id.h"
+#include "floor/gltf_extras.h"
 #include "floor/gltf_writer.h"
 #include "floor/node_names.h"
 #include "floor/verify.h"
@@ -93,14 +94,8 @@ class Export {
     json extras = thing(id, "IfcBuildingStorey", "floor");
     json& about = extras["gramap"];
     if (parent < 0) about = run_json();
-    about["kind"] = "floor";
-    about["id"] = id;
-    about["type"] = "Floor";
-    about["origin"] = "given";
-    about["elevation"] = model.elevation_m;
+    about.update(extras_of_floor(model.fitted));
     about["height"] = model.height_m;
-    about["inner_wall"] = model.fitted.inner_wall_m;
-    about["outer_wall"] = model.fitted.outer_wall_m;
     about["outline"] = json::array();
     for (const Polygon& ring : model.outline) about["outline"].push_back(points(ring));
     about["totals"] = totals(model);
@@ -131,27 +126,8 @@ class Export {
     const FittedRoom& fitted = room.fitted;
     const std::string node_name = names_.name(prefix_ + room.node);
     json extras = thing(fitted.name.empty() ? fitted.id : fitted.name, "IfcSpace", node_name);
-    extras["gramap"] = {{"kind", kind_name(room.kind)},
-                        {"id", fitted.id},
-                        {"type", fitted.type},
-                        {"origin", to_string(fitted.origin)},
-                        {"width", fitted.width_m},
-                        {"depth", fitted.depth_m},
-                        {"height", room.height_m},
-                        {"width_sigma", fitted.width_sigma_m},
-                        {"type_probability", fitted.type_probability},
-                        {"rule", fitted.rule},
-                        {"outline", points(fitted.outline)}};
-    json& about = extras["gramap"];
-    if (!fitted.space.empty()) {
-      about["space"] = fitted.space;
-      about["start"] = fitted.start_m;
-      about["start_sigma"] = fitted.start_sigma_m;
-      about["end_sigma"] = fitted.end_sigma_m;
-    }
-    if (fitted.extracted_width_m) about["extracted_width"] = *fitted.extracted_width_m;
-    if (fitted.extracted_sigma_m) about["extracted_sigma"] = *fitted.extracted_sigma_m;
-    if (!fitted.scans.empty()) about["scans"] = fitted.scans;
+    extras["gramap"] = extras_of_room(fitted, kind_name(room.kind));
+    extras["gramap"]["height"] = room.height_m;
     const int node = writer_.add_node(node_name, floor, -1, extras.dump());
 
     const auto part = [&](const char* suffix, const char* label, const char* ifc_type, Material material,

@@ -14,7 +14,8 @@ namespace gramap {
 /// One node that is a thing: a room, wall, door, window, piece of furniture.
 struct ReadNode {
   std::string node;
-  std::string parent;
+  std::string parent;  ///< the parent's node name; empty for roots
+  std::string storey;  ///< the node name of the floor that it belongs to
   std::string kind;
   std::string id;
   std::string type;
@@ -25,8 +26,10 @@ struct ReadNode {
 struct ReadModel {
   std::string run_json;  ///< the root's `extras.gramap`
   std::vector<ReadNode> nodes;
-  /// Rooms, hallways and fixed rooms with openings and furniture, as far as the extras say.
-  FittedFloor floor;
+  /// Rooms, hallways and fixed rooms with openings and furniture, as the extras say them; the lowest storey
+  /// first.
+  std::vector<FittedFloor> storeys;
+  FittedFloor floor;  ///< the first storey
 };
 
 /// Reads a .glb or .gltf written by gramap. Throws InputError for anything else.
