@@ -6,6 +6,8 @@
 
 #include "floor/model.h"
 #include "floor/node_names.h"
+#include "floor/place_furniture.h"
+#include "floor/wall_openings.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
 
@@ -160,18 +162,68 @@ void add_walls(FloorModel& model, NodeNames& names) {
         break;
       case PlanCell::Kind::mass:
         wall.type = "mass";
-        wall.node = names.name("mass_1");
+        wall.node = names.numbered("mass");
         break;
       default:
         wall.type = "junction";
-        wall.node = names.name("junction_1");
+        wall.node = names.numbered("junction");
     }
     std::vector<PrismCell> cells;
-    for (const int c : part.cells)
-      cells.push_back({model.plan.cells[c].triangles, {{-model.finish_m, model.height_m}}});
+    for (const int c : part.cells) {
+      const PlanCell& cell = model.plan.cells[c];
+      cells.push_back({cell.triangles, {{-model.finish_m, model.height_m}}});
+      if (cell.opening < 0) continue;
+      ModelOpening& opening = model.openings[cell.opening];
+      opening.wall = static_cast<int>(model.walls.size());
+      cells.back().heights_m = {{-model.finish_m, opening.fitted.sill_m},
+                                {opening.fitted.head_m, model.height_m}};
+    }
     wall.solid = extrude(model.plan.points, cells);
     model.walls.push_back(std::move(wall));
   }
+}
+
+/// Openings that the partition could cut, numbered within their room and kind.
+void add_openings(FloorModel& model, PlanInput& input, NodeNames& names) {
+  PlacedOpenings placed = place_openings(model.rooms, model.plan);
+  model.set_aside = std::move(placed.set_aside);
+  // A cut that meets a junction after all is taken out again; the others do not depend on it.
+  while (true) {
+    input.openings = placed.cuts;
+    model.plan = partition(input);
+    std::vector<int> lost;
+    for (const PlanFault& fault : model.plan.faults)
+      if (fault.kind == PlanFault::Kind::lost_opening) lost.push_back(fault.a);
+    if (lost.empty()) break;
+    std::sort(lost.rbegin(), lost.rend());
+    for (const int o : lost) {
+      model.set_aside.push_back({"the " + placed.openings[o].fitted.kind + " of room '" +
+                                     placed.openings[o].room + "' at " + at(placed.openings[o].fitted.a),
+                                 "it cannot be cut straight through one wall"});
+      placed.openings.erase(placed.openings.begin() + o);
+      placed.cuts.erase(placed.cuts.begin() + o);
+    }
+  }
+  model.openings = std::move(placed.openings);
+  for (std::size_t o = 0; o < model.openings.size(); ++o) {
+    ModelOpening& opening = model.openings[o];
+    opening.footprint = model.plan.footprints[o];
+    opening.node = names.numbered(opening.fitted.kind + "_" + opening.room);
+    const Vec2 along = opening.footprint[1] - opening.footprint[0];
+    const Vec2 into = Vec2(-along.y(), along.x()).normalized();
+    opening.width_m = along.norm();
+    opening.thickness_m = std::min((opening.footprint[3] - opening.footprint[0]).dot(into),
+                                   (opening.footprint[2] - opening.footprint[1]).dot(into));
+  }
+}
+
+void add_furniture(FloorModel& model, NodeNames& names) {
+  for (const ModelRoom& room : model.rooms)
+    for (ModelFurniture& piece : place_furniture(room, model.set_aside)) {
+      piece.node =
+          names.numbered((piece.fitted.type.empty() ? "furniture" : piece.fitted.type) + "_" + piece.room);
+      model.furniture.push_back(std::move(piece));
+    }
 }
 
 void add_slab(FloorModel& model) {
@@ -194,10 +246,12 @@ FloorModel build_model(const FittedFloor& fitted) {
 
   NodeNames names;
   add_rooms(model, names);
-  const PlanInput input = plan_input(model);
+  PlanInput input = plan_input(model);
   model.outline = input.outline;
   model.plan = partition(input);
   for (const PlanFault& fault : model.plan.faults) refuse(model, fault);
+  add_openings(model, input, names);
+  add_furniture(model, names);
   add_room_faces(model);
   add_walls(model, names);
   add_slab(model);

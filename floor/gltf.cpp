@@ -1,13 +1,15 @@
 #include "floor/gltf.h"
 
 #include <cmath>
+#include <initializer_list>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "floor/global_id.h"
 #include "floor/gltf_extras.h"
 #include "floor/gltf_writer.h"
 #include "floor/node_names.h"
-#include "floor/verify.h"
+#include "floor/shapes.h"
 
 namespace gramap {
 namespace {
@@ -104,7 +106,10 @@ class Export {
     const int slab = writer_.add_mesh("slab", {{Material::slab, &model.slab}}, model.elevation_m);
     writer_.add_node(names_.name(prefix_ + "slab"), floor, slab, thing("Slab", "IfcSlab", "slab").dump());
     for (const ModelRoom& room : model.rooms) add_room(model, room, floor);
-    for (const ModelWall& wall : model.walls) add_wall(model, wall, floor);
+    std::vector<int> wall_nodes;
+    for (const ModelWall& wall : model.walls) wall_nodes.push_back(add_wall(model, wall, floor));
+    for (const ModelOpening& opening : model.openings)
+      add_opening(model, opening, wall_nodes[static_cast<std::size_t>(opening.wall)]);
   }
 
   static json totals(const FloorModel& model) {
@@ -138,10 +143,12 @@ class Export {
     };
     part("_floor", "Floor", "IfcCovering", floor_material(room), room.floor);
     part("_ceiling", "Ceiling", "IfcCovering", Material::ceiling, room.ceiling);
+    for (const ModelFurniture& piece : model.furniture)
+      if (piece.room == fitted.id) add_furniture(model, piece, node);
     if (options_.room_volumes) part("_volume", "Volume", "IfcSpace", Material::glass, room.volume);
   }
 
-  void add_wall(const FloorModel& model, const ModelWall& wall, int floor) {
+  int add_wall(const FloorModel& model, const ModelWall& wall, int floor) {
     const std::string name = names_.name(prefix_ + wall.node);
     const Material material = wall.type == "mass"    ? Material::mass
                               : wall.type == "outer" ? Material::wall_outer
@@ -150,8 +157,68 @@ class Export {
     extras["gramap"] = {{"kind", "wall"},         {"id", wall.node},       {"type", wall.type},
                         {"origin", "given"},      {"between", wall.sides}, {"thickness", wall.thickness_m},
                         {"length", wall.length_m}};
-    writer_.add_node(name, floor, writer_.add_mesh(name, {{material, &wall.solid}}, model.elevation_m),
-                     extras.dump());
+    return writer_.add_node(name, floor, writer_.add_mesh(name, {{material, &wall.solid}}, model.elevation_m),
+                            extras.dump());
+  }
+
+  void add_opening(const FloorModel& model, const ModelOpening& opening, int wall) {
+    const bool door = opening.fitted.kind == "door";
+    const std::string name = names_.name(prefix_ + opening.node);
+    json extras = thing(opening.node, door ? "IfcDoor" : "IfcWindow", name);
+    extras["gramap"] = extras_of_opening(opening.fitted, opening.room);
+    extras["gramap"]["id"] = opening.node;
+    extras["gramap"]["other"] = opening.other;
+    extras["gramap"]["footprint"] = points(opening.footprint);
+    const int node = writer_.add_node(name, wall, -1, extras.dump());
+    const Vec2& a = opening.footprint[0];
+    // Shapes are whole millimetres; what is left over is shared by both sides.
+    const double slack = opening.width_m - std::floor(opening.width_m * 1000 + 1e-6) / 1000;
+    const Vec2 along = (opening.footprint[1] - a) / opening.width_m, corner = a + along * (slack / 2);
+    writer_.place(node, Vec3(corner.x(), corner.y(), model.elevation_m + opening.fitted.sill_m), along);
+    const double height = opening.fitted.head_m - opening.fitted.sill_m;
+    add_parts(node, name, shape_key(opening.fitted.kind, {opening.width_m, height, opening.thickness_m}),
+              [&] {
+                return door ? door_parts(opening.width_m, height, opening.thickness_m)
+                            : window_parts(opening.width_m, height, opening.thickness_m);
+              });
+  }
+
+  void add_furniture(const FloorModel& model, const ModelFurniture& piece, int room) {
+    const std::string name = names_.name(prefix_ + piece.node);
+    json extras = thing(piece.fitted.type, "IfcFurniture", name);
+    extras["gramap"] = extras_of_furniture(piece.fitted, piece.room);
+    extras["gramap"]["id"] = piece.node;
+    const int node = writer_.add_node(name, room, -1, extras.dump());
+    writer_.place(node,
+                  Vec3(piece.box.corner.x(), piece.box.corner.y(), model.elevation_m + piece.fitted.bottom_m),
+                  piece.box.axis);
+    const bool derived = piece.fitted.origin == Origin::derived;
+    const double height = piece.fitted.top_m - piece.fitted.bottom_m;
+    add_parts(node, name,
+              shape_key(piece.fitted.type + (derived ? "/derived" : ""),
+                        {piece.box.length_m, piece.box.breadth_m, height}),
+              [&] {
+                return furniture_parts(piece.fitted.type, piece.box.length_m, piece.box.breadth_m, height,
+                                       derived);
+              });
+  }
+
+  /// Shapes are made in whole millimetres; things that agree in these share their meshes.
+  static std::string shape_key(std::string type, std::initializer_list<double> sizes_m) {
+    for (const double size : sizes_m)
+      type += "/" + std::to_string(static_cast<long>(std::floor(size * 1000 + 1e-6)));
+    return type;
+  }
+
+  template <typename Make>
+  void add_parts(int parent, const std::string& name, const std::string& key, Make make) {
+    auto [shape, is_new] = shapes_.try_emplace(key);
+    if (is_new)
+      for (const Part& part : make())
+        shape->second.emplace_back(part.name,
+                                   writer_.add_shared_mesh(part.name, {{part.material, &part.mesh}}));
+    for (const auto& [part, mesh] : shape->second)
+      writer_.add_node(names_.name(name + "_" + part), parent, mesh, "");
   }
 
   const std::vector<FloorModel>& storeys_;
@@ -160,8 +227,9 @@ class Export {
   Vec2 origin_;
   GltfWriter writer_;
   NodeNames names_;
-  std::string storey_;  ///< the current one's id
-  std::string prefix_;  ///< of node names, in buildings
+  std::map<std::string, std::vector<std::pair<std::string, int>>> shapes_;  ///< part names and meshes
+  std::string storey_;                                                      ///< the current one's id
+  std::string prefix_;                                                      ///< of node names, in buildings
 };
 
 }  // namespace

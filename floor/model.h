@@ -9,6 +9,7 @@
 #include "floor/fitted_floor.h"
 #include "geometry/mesh.h"
 #include "geometry/partition.h"
+#include "geometry/polygon.h"
 
 namespace gramap {
 
@@ -42,9 +43,9 @@ struct ModelOpening {
   std::string other;  ///< the id of the room behind the wall, or "outside"
   int wall = -1;      ///< into FloorModel::walls
   FittedOpening fitted;
-  std::vector<Vec2> footprint;  ///< the cut through the wall in the plan, counter-clockwise
-  /// The opening's own frame: origin at `fitted.a` on the room's face at z = 0, u along the face (to b), v
-  /// into the wall.
+  /// The cut through the wall: a, b on the room's face, then the points opposite b and a. The opening's own
+  /// frame has its origin at a, z = sill; x along the face to b, y into the wall.
+  Polygon footprint;
   double width_m = 0;
   double thickness_m = 0;
 };
@@ -53,6 +54,7 @@ struct ModelFurniture {
   std::string node;
   std::string room;
   FittedFurniture fitted;
+  OrientedBox box;  ///< its own frame: x along the axis from the corner, y to the left
 };
 
 struct FloorModel {

@@ -105,6 +105,7 @@ class Builder {
     mark_openings();
     gather_walls();
     sum_areas();
+    result_.footprints = std::move(footprints_);
     return std::move(result_);
   }
 
@@ -229,6 +230,8 @@ class Builder {
   }
 
   void mark_openings() {
+    SegmentGrid places;
+    for (const Vec2& inside : inside_) places.add(inside, inside);
     for (int o = 0; o < static_cast<int>(footprints_.size()); ++o) {
       const Polygon& footprint = footprints_[o];
       const auto lost = [&](const Vec2& at) { fault(PlanFault::Kind::lost_opening, o, -1, at, 0); };
@@ -237,12 +240,12 @@ class Builder {
         continue;
       }
       int found = -1;
-      for (int c = 0; c < static_cast<int>(inside_.size()); ++c)
+      for (const int c : places.near(footprint[0], footprint[2], 0.1))
         if (result_.cells[c].kind == PlanCell::Kind::wall && contains(footprint, inside_[c])) found = c;
       const double area = std::abs(signed_area(footprint));
       if (found < 0 || result_.cells[found].opening >= 0 ||
           std::abs(result_.cells[found].area_m2 - area) > 1e-6)
-        lost(footprint.front());
+        lost(footprint.front()), footprints_[o].clear();
       else
         result_.cells[found].opening = o;
     }

@@ -79,6 +79,8 @@ struct Partition {
     double length_m = 0;
   };
   std::vector<Wall> walls;
+  /// By opening: a and b on the room's face, then the points opposite b and a; empty where none could be cut.
+  std::vector<Polygon> footprints;
   double outline_area_m2 = 0;
   double rooms_area_m2 = 0;
   double walls_area_m2 = 0;
