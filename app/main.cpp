@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
   int code = kDone;
   const std::vector<Verb (*)(CLI::App&)> verbs = {
       declare_check,     //
+      declare_fit,       //
+      declare_plan,      //
       declare_export,    //
       declare_perceive,  //
       declare_simulate,  //

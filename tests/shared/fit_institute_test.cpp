@@ -1,0 +1,123 @@
+// The main job on the real building: scans, rules and a floor in, every room in its true order and with its
+// true width out.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floor/fit_floor.h"
+#include "floor/model.h"
+#include "floor/rls_floor.h"
+#include "floor/scan_folder.h"
+#include "floor/verify.h"
+#include "geometry/file.h"
+#include "geometry/polygon.h"
+#include "grammar/language.h"
+#include "tests/shared/shared_data.h"
+
+using namespace gramap;
+
+namespace {
+
+RuleSet rules_file(const std::string& name) {
+  const std::string path = GRAMAP_SOURCE_DIR "/rules/" + name;
+  const CheckedRules checked = check_rules(read_file(path), name);
+  REQUIRE(checked.rules);
+  return *checked.rules;
+}
+
+/// True rooms of a space from the start of its line to its end: ids and clear widths.
+struct TrueWidth {
+  std::string id;
+  double start_m;
+  double width_m;
+};
+std::vector<TrueWidth> true_widths(const Space& space, const FloorTruth& truth) {
+  const Vec2 along = (space.end - space.start).normalized();
+  std::vector<TrueWidth> widths;
+  for (const TrueRoom& room : truth.rooms) {
+    if (!contains(space.outline, centroid(room.outline))) continue;
+    double low = 1e9, high = -1e9;
+    for (const Vec2& point : room.outline)
+      low = std::min(low, (point - space.start).dot(along)),
+      high = std::max(high, (point - space.start).dot(along));
+    widths.push_back({room.id, low, high - low});
+  }
+  std::sort(widths.begin(), widths.end(),
+            [](const TrueWidth& a, const TrueWidth& b) { return a.start_m < b.start_m; });
+  return widths;
+}
+
+/// Fits a floor of the institute and holds every room against the truth.
+void fit_and_compare(const std::filesystem::path& folder, const std::vector<std::string>& without,
+                     double derived_tolerance_m) {
+  const RuleSet rules = rules_file("institute.grammar");
+  const FloorGroundTruth floor = read_floor(folder);
+  const FloorTruth truth = read_truth(folder);
+  const PerceivedFolder perceived = perceive_folder(folder / "scans", without);
+  CHECK(perceived.set_aside.empty());
+  std::vector<SetAsideInput> set_aside;
+  const auto problems = space_problems(floor, rules, perceived.rooms, {}, set_aside);
+  CHECK(set_aside.empty());
+  const FittedFloor fitted = fit_floor(floor, rules, problems, perceived.rooms);
+  CHECK(fitted.set_aside.empty());
+  CHECK(fitted.rooms.size() == 19);
+  for (const Space& space : floor.spaces) {
+    INFO("space ", space.id);
+    std::vector<FittedRoom> rooms;
+    for (const FittedRoom& room : fitted.rooms)
+      if (room.space == space.id) rooms.push_back(room);
+    const auto widths = true_widths(space, truth);
+    REQUIRE(rooms.size() == widths.size());
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      INFO("room ", widths[i].id, " fitted ", rooms[i].width_m, " true ", widths[i].width_m);
+      const bool left_out = std::find(without.begin(), without.end(), widths[i].id) != without.end();
+      CHECK(rooms[i].origin == (left_out ? Origin::derived : Origin::observed));
+      if (!left_out) CHECK(rooms[i].id == widths[i].id);
+      CHECK(std::abs(rooms[i].width_m - widths[i].width_m) <= (left_out ? derived_tolerance_m : 0.03));
+    }
+  }
+  CHECK(verify(build_model(fitted)).ok());
+}
+
+}  // namespace
+
+TEST_CASE("institute, first floor: all rooms scanned") {
+  if (const auto folder = test::shared_data("institute-1og")) fit_and_compare(*folder, {}, 0);
+}
+
+TEST_CASE("institute, first floor: five rooms not scanned") {
+  if (const auto folder = test::shared_data("institute-1og"))
+    fit_and_compare(*folder, {"203", "205", "209", "212", "216"}, 0.15);
+}
+
+TEST_CASE("institute, second floor: every room in a frame of its own, placed by its pin") {
+  if (const auto folder = test::shared_data("institute-2og")) fit_and_compare(*folder, {}, 0);
+}
+
+TEST_CASE("institute, second floor: five rooms not scanned") {
+  if (const auto folder = test::shared_data("institute-2og"))
+    fit_and_compare(*folder, {"303", "305", "309", "312", "316"}, 0.15);
+}
+
+TEST_CASE("the Stuttgart ring: eight spaces filled exactly, shared walls kept, stragglers explained") {
+  const auto folder = test::shared_data("stuttgart-rls");
+  if (!folder) return;
+  const RuleSet rules = rules_file("ring.grammar");
+  const RlsFloor ring = rls_floor(*folder / "rls.csv", *folder / "rules.csv", rules);
+  const FittedFloor fitted = fit_floor(ring.floor, rules, ring.problems, {});
+  REQUIRE(ring.floor.spaces.size() == 8);
+  for (std::size_t i = 0; i < 8; ++i) {
+    double sum = -rules.inner_wall_m;
+    for (const FittedRoom& room : fitted.rooms)
+      if (room.space == ring.floor.spaces[i].id) sum += room.width_m + rules.inner_wall_m;
+    CHECK(sum == doctest::Approx(ring.problems[i].length_m).epsilon(1e-9));
+  }
+  // Space 7 ends, and space 8 begins, at the wall that both have seen, 0.674 m behind the border of their
+  // segments.
+  CHECK((ring.floor.spaces[7].start - ring.floor.spaces[6].end).norm() ==
+        doctest::Approx(rules.inner_wall_m));
+  CHECK(ring.floor.spaces[7].start.y() - rules.inner_wall_m / 2 ==
+        doctest::Approx(12.19798394 + 0.674061).epsilon(1e-5));
+  CHECK(verify(build_model(fitted)).ok());
+}
