@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grammar/explanation.h"
 
@@ -43,41 +44,70 @@ Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable
   const Grid& grid = lattice.grid();
   const auto cells = static_cast<std::size_t>(grid.cells) + 1;
   Coverage changes;  // first of the probability from cell to cell, then summed up
-  for (const Element& element : lattice.row().elements)
-    for (const ElementRoom& room : element.rooms) changes[channel_of(room)].assign(cells, 0);
+  std::vector<std::vector<std::vector<double>*>> of_rooms;  // [element][room]: its channel's changes
+  for (const Element& element : lattice.row().elements) {
+    of_rooms.emplace_back();
+    for (const ElementRoom& room : element.rooms) {
+      std::vector<double>& change = changes[channel_of(room)];
+      change.resize(cells, 0);
+      of_rooms.back().push_back(&change);
+    }
+  }
 
   const double total = log_total(lattice, forward);
   Edges edges(lattice);
+  Departures departures(lattice);
+  std::vector<double> probabilities;
   for (int cell = 0; cell < grid.cells; ++cell) {
-    for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
-      if (posteriors[node] < kDeadPosterior) return;
-      for (const Arc& arc : lattice.arcs(state, cell)) {
-        const Element& element = lattice.row().elements[static_cast<std::size_t>(arc.element)];
-        for (const Move& move : edges.moves(cell, arc.element, e)) {
-          const double* weights = edges.sum(move);
+    for_each_evidence_state(lattice, cell, [&](int e) {
+      for (int state = 0; state < lattice.states(); ++state) {
+        const std::size_t node = lattice.node(cell, state, e);
+        if (posteriors[node] < kDeadPosterior) continue;
+        for (const Arc& arc : lattice.arcs(state, cell)) departures.add(arc, forward.value[node]);
+      }
+      departures.take([&](int id, double departing) {
+        const Placement& placement = lattice.row().placements[static_cast<std::size_t>(id)];
+        const auto which = static_cast<std::size_t>(placement.element);
+        const Element& element = lattice.row().elements[which];
+        for (const Move& move : edges.moves(cell, placement.element, e)) {
           const double* target =
-              &backward.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
-          double scale_of = 0;
+              &backward.value[lattice.node(move.first_cell, placement.target, move.target_evidence)];
+          double scale_of = std::numeric_limits<double>::quiet_NaN();
           double factor = 0;
+          double all = 0;
+          probabilities.assign(static_cast<std::size_t>(move.count), 0);
           for (int i = 0; i < move.count; ++i) {
-            if (weights[i] * target[i] <= 0) continue;
-            const double scale = backward.log_scale[static_cast<std::size_t>(move.first_cell + i)];
-            if (factor <= 0 || scale != scale_of) {
+            const double weight = move.sum[i] * target[i * move.stride];
+            if (weight <= 0) continue;
+            const double scale =
+                backward.log_scale[static_cast<std::size_t>(move.first_cell + i * move.stride)];
+            if (scale != scale_of) {
               scale_of = scale;
-              factor = forward.value[node] * arc.probability *
-                       std::exp(forward.log_scale[static_cast<std::size_t>(cell)] + scale - total);
+              factor =
+                  departing * std::exp(forward.log_scale[static_cast<std::size_t>(cell)] + scale - total);
             }
-            const double p = factor * weights[i] * target[i];
-            const int width = move.first_cell + i - cell;
-            for (const ElementRoom& room : element.rooms) {
-              std::vector<double>& change = changes[channel_of(room)];
-              const CellRange range = is_whole(room) ? CellRange{0, width} : covered(room, grid, width);
+            probabilities[static_cast<std::size_t>(i)] = factor * weight;
+            all += factor * weight;
+          }
+          if (all < kDeadPosterior) continue;
+          for (std::size_t r = 0; r < element.rooms.size(); ++r) {
+            std::vector<double>& change = *of_rooms[which][r];
+            const bool whole = is_whole(element.rooms[r]);
+            if (whole) change[static_cast<std::size_t>(cell)] += all;
+            for (int i = 0; i < move.count; ++i) {
+              const double p = probabilities[static_cast<std::size_t>(i)];
+              const int to = move.first_cell + i * move.stride;
+              if (whole) {
+                change[static_cast<std::size_t>(to)] -= p;
+                continue;
+              }
+              const CellRange range = covered(element.rooms[r], grid, to - cell);
               change[static_cast<std::size_t>(cell + range.begin)] += p;
               change[static_cast<std::size_t>(cell + range.end)] -= p;
             }
           }
         }
-      }
+      });
     });
   }
   for (auto& [channel, change] : changes)

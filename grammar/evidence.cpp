@@ -166,6 +166,37 @@ double Evidence::belongs(const PreparedEvidence& e, const Extent& room) const {
          reading(e, Reading::start_only, room) + reading(e, Reading::end_only, room);
 }
 
+bool Evidence::belongs(const PreparedEvidence& e, int cell, int first, int stride, int count,
+                       double* weights) const {
+  const double start_m = grid_.position_m(cell);
+  const double first_width_m = grid_.width_m(first);
+  const double pace_m = stride * grid_.step_m;
+  bool any = false;
+  std::fill(weights, weights + count, 0);
+  // Each reading is possible for a short stretch of widths only.
+  const auto add = [&](Reading how, double least_m, double most_m) {
+    const int from = static_cast<int>(std::clamp((least_m - first_width_m) / pace_m - 1, 0.0, 1.0 * count));
+    const int to = static_cast<int>(std::clamp((most_m - first_width_m) / pace_m + 2, 0.0, 1.0 * count));
+    for (int i = from; i < to; ++i) {
+      const double width_m = grid_.width_m(first + i * stride);
+      const double weight = reading(e, how, {start_m, start_m + width_m});
+      weights[i] += weight;
+      any = any || weight > 0;
+    }
+  };
+  add(Reading::whole, e.width_m - kGateSigmas * e.width_sd_m, e.width_m + kGateSigmas * e.width_sd_m);
+  if (e.has_other)
+    add(Reading::swapped, e.other_m - kGateSigmas * e.other_sd_m, e.other_m + kGateSigmas * e.other_sd_m);
+  if (!e.has_centre) return any;
+  const double wall_gate_m = kGateSigmas * e.wall_sd_m;
+  if (std::abs(e.start_wall_m() - start_m) <= wall_gate_m)
+    add(Reading::start_only, e.width_m, e.width_m + kMostCutOff_m);
+  const double end_m = e.end_wall_m() - start_m;  // the width that ends where the evidence does
+  add(Reading::end_only, std::max(e.width_m, end_m - wall_gate_m),
+      std::min(e.width_m + kMostCutOff_m, end_m + wall_gate_m));
+  return any;
+}
+
 double Evidence::door_place(const DoorEvidence& door, const RoomType* type, const Extent& room) const {
   const double half = 0.5 * door.width_m;
   const double fits = cumulative((door.centre_m - half - room.start_m) / door.sigma_m) *

@@ -75,6 +75,9 @@ class Evidence {
   double reading(const PreparedEvidence& e, Reading how, const Extent& room) const;
   /// Weight of the evidence belonging to the room: whole, swapped, start only, end only together.
   double belongs(const PreparedEvidence& e, const Extent& room) const;
+  /// The same for a room that starts at `cell` and takes first, first + stride, … cells, `count` of them.
+  /// Returns whether any weight is above zero.
+  bool belongs(const PreparedEvidence& e, int cell, int first, int stride, int count, double* weights) const;
   double type_factor(const PreparedEvidence& e, int type) const {
     return type < 0 ? e.type_factor.back() : e.type_factor[static_cast<std::size_t>(type)];
   }

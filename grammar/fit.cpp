@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "geometry/error.h"
+#include "grammar/coarse.h"
 #include "grammar/coverage.h"
 #include "grammar/explanation.h"
 #include "grammar/fillable.h"
@@ -142,7 +143,8 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
     throw InputError({}, "space " + problem.id + ": rule " + rule_name(rules, compiled.fault->rule) + ": " +
                              compiled.fault->message);
   const Evidence evidence(rules, problem, options, grid);
-  const Lattice lattice(compiled.row, grid, evidence);
+  Lattice lattice(compiled.row, grid, evidence);
+  lattice.restrict(coarse_mask(rules, problem, options, lattice));
   const NodeTable before = forward(lattice);
   const double total = log_total(lattice, before);
   if (!std::isfinite(total)) refuse(rules, problem, options);

@@ -15,71 +15,115 @@ NodeTable empty_table(const Lattice& lattice) {
           std::vector<double>(static_cast<std::size_t>(lattice.grid().cells) + 1, 0)};
 }
 
-double largest(const Lattice& lattice, const NodeTable& table, int cell) {
+constexpr int kScaleEvery = 32;  // cells
+
+/// The largest value among the cells that an edge over `cell` may reach or has reached.
+double largest_ahead(const Lattice& lattice, const NodeTable& table, int cell) {
   double most = 0;
-  for_each_node(lattice, cell, [&](int, int, std::size_t node) { most = std::max(most, table.value[node]); });
+  const int last = std::min(lattice.grid().cells, cell + lattice.longest());
+  for (int n = cell; n <= last; ++n)
+    for_each_node(lattice, n, [&](int, int, std::size_t node) { most = std::max(most, table.value[node]); });
   return most;
 }
 
-/// Brings what lies ahead of `cell` (this one included) into range.
-void rescale_ahead(const Lattice& lattice, NodeTable& table, int cell) {
-  const double most = largest(lattice, table, cell);
-  if (most <= 0 || (most > kLeast && most < kMost)) return;
+bool is_in_range(double value) {
+  return value <= 0 || (value > kLeast && value < kMost);
+}
+
+/// Brings what lies ahead of `cell` (this one included) into range; the scale holds from here on.
+double rescale_ahead(const Lattice& lattice, NodeTable& table, int cell) {
+  const double most = largest_ahead(lattice, table, cell);
+  if (is_in_range(most)) return 0;
   const int last = std::min(lattice.grid().cells, cell + lattice.longest());
   for (int n = cell; n <= last; ++n)
     for_each_node(lattice, n, [&](int, int, std::size_t node) { table.value[node] /= most; });
-  for (std::size_t n = static_cast<std::size_t>(cell); n < table.log_scale.size(); ++n)
-    table.log_scale[n] += std::log(most);
+  return std::log(most);
 }
 
-/// Scale of a completion at `cell`, chosen after the largest value that lies ahead, so that the sums at
-/// `cell` are in range: completions are computed from the end, cell by cell.
+/// Scale of completions from `cell` on, chosen so that the largest that it is summed up from is in range:
+/// completions are computed from the end, cell by cell.
 double scale_behind(const Lattice& lattice, const NodeTable& table, int cell) {
-  const auto next = static_cast<std::size_t>(cell) + 1;
-  const double most = largest(lattice, table, cell + 1);
-  const double scale = table.log_scale[next];
-  return most <= 0 || (most > kLeast && most < kMost) ? scale : scale + std::log(most);
+  const double scale = table.log_scale[static_cast<std::size_t>(cell) + 1];
+  if (cell % kScaleEvery != 0) return scale;
+  const int last = std::min(lattice.grid().cells, cell + lattice.longest());
+  double most = -std::numeric_limits<double>::infinity();
+  for (int n = cell + 1; n <= last; ++n) {
+    double here = 0;
+    for_each_node(lattice, n, [&](int, int, std::size_t node) { here = std::max(here, table.value[node]); });
+    if (here > 0) most = std::max(most, std::log(here) + table.log_scale[static_cast<std::size_t>(n)]);
+  }
+  if (!std::isfinite(most)) return scale;
+  return is_in_range(std::exp(most - scale)) ? scale : most;
 }
 
-/// exp(scale[cell + i] - scale_here), or nothing when that is 1 all over the move.
-class ScaleFactors {
- public:
-  const double* operator()(const NodeTable& table, const Move& move, double scale_here) {
-    const auto first = table.log_scale.begin() + move.first_cell;
-    if (std::all_of(first, first + move.count, [&](double scale) { return scale == scale_here; }))
-      return nullptr;
-    factors_.clear();
-    for (auto scale = first; scale != first + move.count; ++scale)
-      factors_.push_back(std::exp(*scale - scale_here));
-    return factors_.data();
-  }
+/// Whether all that a move leads to has this scale.
+bool has_one_scale(const NodeTable& table, const Move& move, double scale) {
+  for (int cell = move.first_cell; cell < move.last_cell(); cell += kScaleEvery)
+    if (table.log_scale[static_cast<std::size_t>(cell)] != scale) return false;
+  return table.log_scale[static_cast<std::size_t>(move.last_cell())] == scale;
+}
 
- private:
-  std::vector<double> factors_;
-};
+/// Sum over the edges of an arc's placement of their weights times what comes after.
+double completion(const Lattice& lattice, Edges& edges, const NodeTable& table, int cell, int evidence_state,
+                  const Arc& arc, double scale) {
+  double sum = 0;
+  for (const Move& move : edges.moves(cell, arc.element, evidence_state)) {
+    const double* target = &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
+    if (has_one_scale(table, move, scale)) {
+      sum += dot(move.sum, target, move.stride, move.count);
+      continue;
+    }
+    for (int i = 0; i < move.count; ++i) {
+      const auto n = static_cast<std::size_t>(move.first_cell + i * move.stride);
+      sum += move.sum[i] * target[i * move.stride] * std::exp(table.log_scale[n] - scale);
+    }
+  }
+  return sum;
+}
 
 }  // namespace
+
+double dot(const double* weights, const double* values, int stride, int count) {
+  double sums[4] = {0, 0, 0, 0};  // in step, so that the compiler can use wide registers
+  int i = 0;
+  if (stride == 1) {
+    for (; i + 4 <= count; i += 4)
+      for (int k = 0; k < 4; ++k) sums[k] += weights[i + k] * values[i + k];
+  }
+  for (; i < count; ++i) sums[0] += weights[i] * values[i * stride];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
 
 NodeTable forward(const Lattice& lattice) {
   NodeTable table = empty_table(lattice);
   Edges edges(lattice);
+  Departures departures(lattice);
   const auto [start, weight] = lattice.start();
   table.value[lattice.node(0, 0, start)] = weight;
+  double scale = 0;
   for (int cell = 0; cell < lattice.grid().cells; ++cell) {
-    rescale_ahead(lattice, table, cell);
-    for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
-      const double here = table.value[node];
-      if (here <= 0) return;
-      for (const Arc& arc : lattice.arcs(state, cell)) {
-        const double factor = here * arc.probability;
-        for (const Move& move : edges.moves(cell, arc.element, e)) {
-          const double* weights = edges.sum(move);
-          double* target = &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
-          for (int i = 0; i < move.count; ++i) target[i] += factor * weights[i];
-        }
+    if (cell % kScaleEvery == 0) scale += rescale_ahead(lattice, table, cell);
+    table.log_scale[static_cast<std::size_t>(cell)] = scale;
+    for_each_evidence_state(lattice, cell, [&](int e) {
+      for (int state = 0; state < lattice.states(); ++state) {
+        const double here = table.value[lattice.node(cell, state, e)];
+        if (here <= 0) continue;
+        for (const Arc& arc : lattice.arcs(state, cell)) departures.add(arc, here);
       }
+      departures.take([&](int id, double factor) {
+        const Placement& placement = lattice.row().placements[static_cast<std::size_t>(id)];
+        for (const Move& move : edges.moves(cell, placement.element, e)) {
+          double* target =
+              &table.value[lattice.node(move.first_cell, placement.target, move.target_evidence)];
+          if (move.stride == 1)
+            for (int i = 0; i < move.count; ++i) target[i] += factor * move.sum[i];
+          else
+            for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
+        }
+      });
     });
   }
+  table.log_scale.back() = scale;
   return table;
 }
 
@@ -96,7 +140,8 @@ double log_total(const Lattice& lattice, const NodeTable& forward) {
 NodeTable backward(const Lattice& lattice, const NodeTable& forward) {
   NodeTable table = empty_table(lattice);
   Edges edges(lattice);
-  ScaleFactors factors;
+  std::vector<double> completions(lattice.row().placements.size(), 0);
+  std::vector<bool> known(completions.size(), false);
   const int end = lattice.grid().cells;
   for (int state = 0; state < lattice.states(); ++state)
     table.value[lattice.node(end, state, lattice.end_evidence())] =
@@ -104,22 +149,20 @@ NodeTable backward(const Lattice& lattice, const NodeTable& forward) {
   for (int cell = end - 1; cell >= 0; --cell) {
     const double scale = scale_behind(lattice, table, cell);
     table.log_scale[static_cast<std::size_t>(cell)] = scale;
-    for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
-      if (forward.value[node] <= 0) return;
-      double sum = 0;
-      for (const Arc& arc : lattice.arcs(state, cell)) {
-        double part = 0;
-        for (const Move& move : edges.moves(cell, arc.element, e)) {
-          const double* weights = edges.sum(move);
-          const double* target =
-              &table.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
-          const double* scales = factors(table, move, scale);
-          for (int i = 0; i < move.count; ++i)
-            part += weights[i] * target[i] * (scales != nullptr ? scales[i] : 1);
+    for_each_evidence_state(lattice, cell, [&](int e) {
+      std::fill(known.begin(), known.end(), false);
+      for (int state = 0; state < lattice.states(); ++state) {
+        const std::size_t node = lattice.node(cell, state, e);
+        if (forward.value[node] <= 0) continue;
+        double sum = 0;
+        for (const Arc& arc : lattice.arcs(state, cell)) {
+          const auto id = static_cast<std::size_t>(arc.placement);
+          if (!known[id]) completions[id] = completion(lattice, edges, table, cell, e, arc, scale);
+          known[id] = true;
+          sum += arc.probability * completions[id];
         }
-        sum += arc.probability * part;
+        table.value[node] = sum;
       }
-      table.value[node] = sum;
     });
   }
   return table;

@@ -1,11 +1,37 @@
 // The passes of the dynamic programme over a space's lattice: forward and backward sums.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "grammar/lattice.h"
 
 namespace gramap {
+
+/// Adds up, over the states of a cell and an evidence state, their values times the probabilities of the arcs
+/// to each placement: what the edges of a placement start from. Those that are not zero come in order.
+class Departures {
+ public:
+  explicit Departures(const Lattice& lattice) : values_(lattice.row().placements.size(), 0) {}
+
+  void add(const Arc& arc, double value) {
+    double& sum = values_[static_cast<std::size_t>(arc.placement)];
+    if (sum == 0) placements_.push_back(arc.placement);
+    sum += value * arc.probability;
+  }
+
+  /// Calls visit(placement, value) for each, and forgets them.
+  template <class Visit>
+  void take(Visit visit) {
+    for (const int placement : placements_)
+      visit(placement, std::exchange(values_[static_cast<std::size_t>(placement)], 0));
+    placements_.clear();
+  }
+
+ private:
+  std::vector<double> values_;
+  std::vector<int> placements_;
+};
 
 /// A value per node; the true one is value x exp(log_scale[cell]), so that no length underflows.
 struct NodeTable {
@@ -18,9 +44,17 @@ template <class Visit>
 void for_each_node(const Lattice& lattice, int cell, Visit visit) {
   const auto [first, last] = lattice.alive(cell);
   for (int e = first; e <= last; ++e) {
-    if (cell < lattice.first_cell(e) || cell > lattice.last_cell(e)) continue;
+    if (!lattice.is_alive(cell, e)) continue;
     for (int state = 0; state < lattice.states(); ++state) visit(e, state, lattice.node(cell, state, e));
   }
+}
+
+/// Calls visit(evidence_state) for the evidence states that are alive at a cell.
+template <class Visit>
+void for_each_evidence_state(const Lattice& lattice, int cell, Visit visit) {
+  const auto [first, last] = lattice.alive(cell);
+  for (int e = first; e <= last; ++e)
+    if (lattice.is_alive(cell, e)) visit(e);
 }
 
 /// One element of a path through the lattice.
@@ -45,6 +79,9 @@ inline constexpr double kDeadPosterior = 1e-15;
 
 /// Sum over all completions of each node that `forward` reaches.
 NodeTable backward(const Lattice& lattice, const NodeTable& forward);
+
+/// Sum of weights x values of the nodes that a move leads to.
+double dot(const double* weights, const double* values, int stride, int count);
 
 /// Posterior probability of passing through each node, by the two sums.
 std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward,

@@ -18,7 +18,8 @@ double cumulative(double u) {
 void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& normal, const Grid& grid,
                 int longest) {
   const double h = grid.step_m;
-  const double reach = kMassSigmas * normal.sd_m;
+  const double sd_m = std::max(normal.sd_m, 0.5 * h);
+  const double reach = kMassSigmas * sd_m;
   const auto cells = [&](double width_m) { return (width_m + grid.wall_m) / h; };
   const int least = std::max(1, static_cast<int>(std::floor(grid.wall_m / h)) + 1);
   const int first =
@@ -27,9 +28,9 @@ void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& 
       std::min<int>(longest, static_cast<int>(std::lround(std::min(1e8, cells(normal.mean_m + reach)))));
   if (last < first) return;
   WidthMass made{first, {}};
-  double before = cumulative((grid.width_m(first) - 0.5 * h - normal.mean_m) / normal.sd_m);
+  double before = cumulative((grid.width_m(first) - 0.5 * h - normal.mean_m) / sd_m);
   for (int k = first; k <= last; ++k) {
-    const double now = cumulative((grid.width_m(k) + 0.5 * h - normal.mean_m) / normal.sd_m);
+    const double now = cumulative((grid.width_m(k) + 0.5 * h - normal.mean_m) / sd_m);
     made.mass.push_back(weight * (now - before));
     before = now;
   }
@@ -169,43 +170,37 @@ bool Lattice::needs_fine_steps(int cell, int first, int last) const {
                      [&](const auto& fine) { return fine.first <= last && first <= fine.second; });
 }
 
-std::vector<WidthMass> Lattice::uniform_mass(const Element& element, int cell) const {
+void Lattice::uniform_mass(const Element& element, int cell, std::vector<WidthMass>& made) const {
   const double h = grid_.step_m;
   const int first = std::max(1, static_cast<int>(std::ceil((element.least_m + grid_.wall_m) / h - 1e-9)));
   const int last = static_cast<int>(std::floor((element.most_m + grid_.wall_m) / h + 1e-9));
   const int coarse = std::max(1, static_cast<int>(std::lround(kCoarseStep_m / h)));
-  const int end = std::min(last, grid_.cells - cell);
-  if (end < first) return {};
-  WidthMass mass{first, std::vector<double>(static_cast<std::size_t>(end - first + 1), 0)};
   const double fine = 1.0 / (last - first + 1);
-  for (int begin = first; begin <= end; begin += coarse) {
+  for (int begin = first; begin <= std::min(last, grid_.cells - cell); begin += coarse) {
     const int stop = std::min(begin + coarse - 1, last);
-    if (coarse == 1 || needs_fine_steps(cell, begin, stop)) {
-      for (int k = begin; k <= std::min(stop, end); ++k)
-        mass.mass[static_cast<std::size_t>(k - first)] = fine;
-    } else if ((begin + stop) / 2 <= end) {
-      mass.mass[static_cast<std::size_t>((begin + stop) / 2 - first)] = fine * (stop - begin + 1);
+    if (coarse > 1 && stop - begin + 1 == coarse && !needs_fine_steps(cell, begin, stop)) {
+      const int middle = begin + (coarse - 1) / 2;
+      if (made.empty() || made.back().stride == 1 || made.back().last() + coarse != middle)
+        made.push_back({middle, {}, coarse});
+      made.back().mass.push_back(fine * coarse);
+    } else {
+      if (made.empty() || made.back().stride != 1 || made.back().last() + 1 != begin)
+        made.push_back({begin, {}, 1});
+      made.back().mass.insert(made.back().mass.end(), static_cast<std::size_t>(stop - begin + 1), fine);
     }
   }
-  return {mass};
 }
 
-std::vector<WidthMass> Lattice::widths(int cell, int element) const {
+const std::vector<WidthMass>& Lattice::widths(int cell, int element, std::vector<WidthMass>& made) const {
   const Element& placed = row_.elements[static_cast<std::size_t>(element)];
-  const int rest = grid_.cells - cell;
-  if (placed.kind == Element::Width::uniform) return uniform_mass(placed, cell);
-  std::vector<WidthMass> masses;
-  if (placed.kind == Element::Width::share) {
-    add_normal(masses, 1, {placed.share.at(grid_.remaining_m(cell)), placed.share_sd_m}, grid_, rest);
-    return masses;
-  }
-  for (const WidthMass& mass : masses_[static_cast<std::size_t>(element)]) {
-    if (mass.first > rest) continue;
-    masses.push_back(mass);
-    if (masses.back().first + static_cast<int>(mass.mass.size()) - 1 > rest)
-      masses.back().mass.resize(static_cast<std::size_t>(rest - mass.first + 1));
-  }
-  return masses;
+  if (placed.kind == Element::Width::mixture) return masses_[static_cast<std::size_t>(element)];
+  made.clear();
+  if (placed.kind == Element::Width::uniform)
+    uniform_mass(placed, cell, made);
+  else
+    add_normal(made, 1, {placed.share.at(grid_.remaining_m(cell)), placed.share_sd_m}, grid_,
+               grid_.cells - cell);
+  return made;
 }
 
 Extent element_extent(const Grid& grid, int cell, int width) {
@@ -227,125 +222,177 @@ double belongs(const Lattice& lattice, int cell, int width, const Element& eleme
   return sum / static_cast<double>(element.rooms.size());
 }
 
+double* Edges::store(int count) {
+  if (buffer_count_ == buffers_.size()) buffers_.emplace_back();
+  std::vector<double>& buffer = buffers_[buffer_count_++];
+  buffer.resize(static_cast<std::size_t>(count));
+  return buffer.data();
+}
+
+/// Likelihood of the doors seen in the element's hallway wall.
+double Edges::doors(const Element& element, int width) const {
+  const Grid& grid = lattice_.grid();
+  double likelihood = 1;
+  for (const ElementRoom& room : element.rooms) {
+    if (!room.at_hallway) continue;
+    const double clear_m = grid.width_m(width);
+    const double start = room.start.at(clear_m);
+    const double end = start + room.width.at(clear_m) + grid.wall_m;
+    const int first = std::clamp(static_cast<int>(std::lround(start / grid.step_m)), 0, width);
+    const int last = std::clamp(static_cast<int>(std::lround(end / grid.step_m)), first, width);
+    likelihood *= lattice_.evidence().doors(room.type, cell_ + first, cell_ + last);
+  }
+  return likelihood;
+}
+
 const Edges::Prior& Edges::prior(int element) {
   for (std::size_t i = 0; i < prior_count_; ++i)
     if (priors_[i].element == element) return priors_[i];
   if (prior_count_ == priors_.size()) priors_.emplace_back();
   Prior& prior = priors_[prior_count_++];
   prior.element = element;
-  prior.masses = lattice_.widths(cell_, element);
-  if (!lattice_.evidence().has_doors()) return prior;
-  const Grid& grid = lattice_.grid();
-  const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
-  for (WidthMass& mass : prior.masses) {
-    for (std::size_t i = 0; i < mass.mass.size(); ++i) {
-      if (mass.mass[i] <= 0) continue;
-      const int width = mass.first + static_cast<int>(i);
-      for (const ElementRoom& room : placed.rooms) {
-        if (!room.at_hallway) continue;
-        const double clear_m = grid.width_m(width);
-        const double start = room.start.at(clear_m);
-        const double end = start + room.width.at(clear_m) + grid.wall_m;
-        const int first = std::clamp(static_cast<int>(std::lround(start / grid.step_m)), 0, width);
-        const int last = std::clamp(static_cast<int>(std::lround(end / grid.step_m)), first, width);
-        mass.mass[i] *= lattice_.evidence().doors(room.type, cell_ + first, cell_ + last);
-      }
+  prior.stretches.clear();
+  const int rest = lattice_.grid().cells - cell_;
+  for (const WidthMass& mass : lattice_.widths(cell_, element, prior.made)) {
+    if (mass.first > rest) continue;
+    Stretch stretch{mass.first, mass.stride, 0, mass.mass.data()};
+    stretch.count = std::min(static_cast<int>(mass.mass.size()), (rest - mass.first) / mass.stride + 1);
+    if (lattice_.evidence().has_doors()) {
+      const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
+      double* seen = store(stretch.count);
+      for (int i = 0; i < stretch.count; ++i)
+        seen[i] =
+            stretch.mass[i] > 0 ? stretch.mass[i] * doors(placed, stretch.first + i * stretch.stride) : 0;
+      stretch.mass = seen;
     }
+    prior.stretches.push_back(stretch);
   }
   return prior;
 }
 
-/// Adds edges to cells cell + first_width + i; evidence that has passed by there is skipped.
-void Edges::add(std::vector<Move>& moves, int evidence_state, int first_width, const std::vector<double>& sum,
-                const std::vector<double>& max, int matched) {
-  const auto put = [&](int target, int from, int to, double factor) {
+/// Adds edges to the cells of a stretch; evidence that has passed by there is skipped.
+void Edges::add(std::vector<Move>& moves, int evidence_state, const Stretch& sum, const double* max,
+                int matched) {
+  const int base = cell_ + sum.first;
+  const auto cell_of = [&](int i) { return base + i * sum.stride; };
+  const auto put = [&](int target, int from, int to, double factor) {  // stretch indices, inclusive
     Move move;
     move.target_evidence = target;
-    move.first_cell = from;
+    move.first_cell = cell_of(from);
+    move.stride = sum.stride;
     move.count = to - from + 1;
     move.matched = matched;
-    const auto copy = [&](const std::vector<double>& weights) {
-      const std::size_t begin = weights_.size();
-      const auto first = weights.begin() + (from - cell_ - first_width);
-      for (auto w = first; w != first + move.count; ++w) weights_.push_back(factor * *w);
-      return begin;
+    const auto weights = [&](const double* given) {
+      if (factor == 1) return given + from;
+      double* scaled = store(move.count);
+      for (int i = 0; i < move.count; ++i) scaled[i] = factor * given[from + i];
+      return static_cast<const double*>(scaled);
     };
-    move.sum = copy(sum);
-    move.max = &sum == &max ? move.sum : copy(max);
+    move.sum = weights(sum.mass);
+    move.max = sum.mass == max ? move.sum : weights(max);
     moves.push_back(move);
   };
-  int from = cell_ + first_width;
-  const int end = from + static_cast<int>(sum.size()) - 1;
   if (evidence_state % 2 == 1) {
-    const int first = std::max(from, lattice_.first_cell(evidence_state));
-    const int last = std::min(end, lattice_.last_cell(evidence_state));
-    if (first <= last) put(evidence_state, first, last, 1);
+    int from = 0;
+    int to = sum.count - 1;
+    while (from <= to && cell_of(from) < lattice_.first_cell(evidence_state)) ++from;
+    while (from <= to && cell_of(to) > lattice_.last_cell(evidence_state)) --to;
+    if (from <= to) put(evidence_state, from, to, 1);
     return;
   }
   const auto& rooms = lattice_.evidence().rooms();
   int next = evidence_state / 2;
   double factor = 1;
-  while (from <= end) {
-    while (next < static_cast<int>(rooms.size()) && from > rooms[static_cast<std::size_t>(next)].last_start)
+  for (int from = 0; from < sum.count;) {
+    while (next < static_cast<int>(rooms.size()) &&
+           cell_of(from) > rooms[static_cast<std::size_t>(next)].last_start)
       factor *= rooms[static_cast<std::size_t>(next++)].aside;
-    const int to = next < static_cast<int>(rooms.size())
-                       ? std::min(end, rooms[static_cast<std::size_t>(next)].last_start)
-                       : end;
+    int to = sum.count - 1;
+    if (next < static_cast<int>(rooms.size()))
+      to = std::min(to, (rooms[static_cast<std::size_t>(next)].last_start - base) / sum.stride);
     put(2 * next, from, to, factor);
     from = to + 1;
   }
 }
 
+/// Weights of the evidence belonging to the element at each width; whether any is above zero.
+bool Edges::weigh(const PreparedEvidence& e, const Element& element, const Stretch& widths,
+                  double* weights) const {
+  if (element.rooms.size() == 1) {
+    const double factor = lattice_.evidence().type_factor(e, element.rooms.front().type);
+    const bool any =
+        lattice_.evidence().belongs(e, cell_, widths.first, widths.stride, widths.count, weights);
+    for (int i = 0; any && i < widths.count; ++i) weights[i] *= factor;
+    return any;
+  }
+  bool any = false;
+  for (int i = 0; i < widths.count; ++i) {
+    weights[i] = belongs(lattice_, cell_, widths.first + i * widths.stride, element, e);
+    any = any || weights[i] > 0;
+  }
+  return any;
+}
+
 /// Edges on which the room explains evidence `next` or later ones.
-void Edges::add_matches(std::vector<Move>& moves, const Element& element, const WidthMass& prior, int next) {
+void Edges::add_matches(std::vector<Move>& moves, const Element& element, const Stretch& prior, int next) {
   const auto& rooms = lattice_.evidence().rooms();
   const int reach = lattice_.reach(cell_);
-  std::vector<double> sum = prior.mass;
-  std::vector<double> max = prior.mass;
+  const double* sum = prior.mass;
+  const double* max = prior.mass;
+  const auto scaled = [&](const double* weights, double factor) {
+    double* made = store(prior.count);
+    for (int i = 0; i < prior.count; ++i) made[i] = factor * weights[i];
+    return made;
+  };
   for (int j = next; j < reach; ++j) {
     const PreparedEvidence& e = rooms[static_cast<std::size_t>(j)];
     const bool near = e.first_start <= cell_ && cell_ <= e.last_start;
-    std::vector<double> weight(sum.size(), 0);
-    int first = -1;
-    int last = -1;
-    if (near) {
-      for (std::size_t i = 0; i < sum.size(); ++i) {
-        if (sum[i] <= 0) continue;
-        weight[i] = belongs(lattice_, cell_, prior.first + static_cast<int>(i), element, e);
-        if (weight[i] <= 0) continue;
-        if (first < 0) first = static_cast<int>(i);
-        last = static_cast<int>(i);
-      }
-      const double opens =
-          lattice_.evidence().reading(e, Reading::opens, element_extent(lattice_.grid(), cell_, 1));
-      if (opens > 0) {
-        std::vector<double> opened_sum = sum;
-        std::vector<double> opened_max = max;
-        for (double& w : opened_sum) w *= opens;
-        for (double& w : opened_max) w *= opens;
-        add(moves, 2 * j + 1, prior.first, opened_sum, opened_max, j);
-      }
+    if (!near) {
+      const double* next_sum = scaled(sum, e.aside);
+      max = sum == max ? next_sum : scaled(max, e.aside);
+      sum = next_sum;
+      continue;
     }
-    if (first >= 0) {
-      std::vector<double> matched_sum;
-      std::vector<double> matched_max;
-      for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
-        matched_sum.push_back(sum[i] * weight[i]);
-        matched_max.push_back(max[i] * weight[i]);
+    double* weight = store(prior.count);
+    const bool any = weigh(e, element, prior, weight);
+    int first = 0;
+    int last = any ? prior.count - 1 : -1;
+    while (first <= last && weight[first] <= 0) ++first;
+    while (first <= last && weight[last] <= 0) --last;
+    const double opens =
+        lattice_.evidence().reading(e, Reading::opens, element_extent(lattice_.grid(), cell_, 1));
+    if (opens > 0) {
+      const double* opened_sum = scaled(sum, opens);
+      const double* opened_max = sum == max ? opened_sum : scaled(max, opens);
+      add(moves, 2 * j + 1, {prior.first, prior.stride, prior.count, opened_sum}, opened_max, j);
+    }
+    if (first <= last) {
+      const int count = last - first + 1;
+      double* matched_sum = store(count);
+      double* matched_max = sum == max ? matched_sum : store(count);
+      for (int i = 0; i < count; ++i) {
+        matched_sum[i] = sum[first + i] * weight[first + i];
+        matched_max[i] = max[first + i] * weight[first + i];
       }
-      add(moves, 2 * (j + 1), prior.first + first, matched_sum, matched_max, j);
+      add(moves, 2 * (j + 1), {prior.first + first * prior.stride, prior.stride, count, matched_sum},
+          matched_max, j);
     }
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i] *= e.again * weight[i] + e.aside;
-      max[i] *= std::max(e.again * weight[i], e.aside);
+    if (j + 1 == reach) break;
+    double* next_sum = store(prior.count);
+    double* next_max = store(prior.count);
+    for (int i = 0; i < prior.count; ++i) {
+      next_sum[i] = sum[i] * (e.again * weight[i] + e.aside);
+      next_max[i] = max[i] * std::max(e.again * weight[i], e.aside);
     }
+    sum = next_sum;
+    max = next_max;
   }
 }
 
 const std::vector<Move>& Edges::moves(int cell, int element, int evidence_state) {
   if (cell != cell_) {
     cell_ = cell;
-    weights_.clear();
+    buffer_count_ = 0;
     known_count_ = 0;
     prior_count_ = 0;
   }
@@ -357,21 +404,24 @@ const std::vector<Move>& Edges::moves(int cell, int element, int evidence_state)
   known.evidence_state = evidence_state;
   known.moves.clear();
 
-  const Prior& prior_masses = prior(element);
   const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
   const int next = evidence_state / 2;
-  for (const WidthMass& mass : prior_masses.masses) {
+  for (const Stretch& stretch : prior(element).stretches) {
     if (evidence_state % 2 == 0) {
-      add(known.moves, evidence_state, mass.first, mass.mass, mass.mass, -1);
-      add_matches(known.moves, placed, mass, next);
+      add(known.moves, evidence_state, stretch, stretch.mass, -1);
+      add_matches(known.moves, placed, stretch, next);
       continue;
     }
     const PreparedEvidence& e = lattice_.evidence().rooms()[static_cast<std::size_t>(next)];
-    std::vector<double> closed = mass.mass;
-    for (std::size_t i = 0; i < closed.size(); ++i)
-      closed[i] *= lattice_.evidence().reading(
-          e, Reading::closes, element_extent(lattice_.grid(), cell_, mass.first + static_cast<int>(i)));
-    add(known.moves, 2 * (next + 1), mass.first, closed, closed, next);
+    double* closed = store(stretch.count);
+    for (int i = 0; i < stretch.count; ++i)
+      closed[i] =
+          stretch.mass[i] *
+          lattice_.evidence().reading(
+              e, Reading::closes, element_extent(lattice_.grid(), cell_, stretch.first + i * stretch.stride));
+    Stretch read = stretch;
+    read.mass = closed;
+    add(known.moves, 2 * (next + 1), read, closed, next);
   }
   return known.moves;
 }

@@ -19,25 +19,36 @@
 
 namespace gramap {
 
-/// Probability masses of an element's gross widths first .. first + mass.size() - 1, in cells.
+/// Probability masses of an element's gross widths first, first + stride, first + 2 stride, …, in cells.
 struct WidthMass {
   int first = 1;
   std::vector<double> mass;
+  int stride = 1;
+  int last() const { return first + stride * (static_cast<int>(mass.size()) - 1); }
 };
 
 inline constexpr double kMassSigmas = 5;
 
-/// The mass of a mixture of normals, each cut off at kMassSigmas; in stretches without gaps.
+/// The mass of a mixture of normals, each cut off at kMassSigmas and none narrower than half a step (so that
+/// means survive the rounding); in stretches without gaps.
 std::vector<WidthMass> mixture_mass(const Mixture& mixture, const Grid& grid);
 
-/// All edges of one element from one node to one evidence state: target cells first_cell + i.
+/// Edges of one element from one node to one evidence state: target cells first_cell + i * stride.
 struct Move {
   int target_evidence = 0;
   int first_cell = 0;
+  int stride = 1;
   int count = 0;
-  std::size_t sum = 0;  ///< where the weights begin: associations inside added up,
-  std::size_t max = 0;  ///< or the best of them
-  int matched = -1;     ///< the last evidence that the room explains (or opens, closes); -1: none
+  const double* sum = nullptr;  ///< weights with the associations inside added up,
+  const double* max = nullptr;  ///< or with the best of them
+  int matched = -1;             ///< the last evidence that the room explains (or opens, closes); -1: none
+
+  int last_cell() const { return first_cell + stride * (count - 1); }
+};
+
+/// Cells that are worth a look, by evidence state; see `Lattice::restrict`.
+struct NodeMask {
+  std::vector<std::vector<bool>> alive;  // [evidence state][cell - first cell of the state]
 };
 
 class Lattice {
@@ -56,6 +67,14 @@ class Lattice {
   /// Evidence states that may be alive at a cell: first .. last, inclusive.
   std::pair<int, int> alive(int cell) const { return alive_[static_cast<std::size_t>(cell)]; }
 
+  /// Leaves out of every pass what the mask does not hold.
+  void restrict(NodeMask mask) { mask_ = std::move(mask); }
+  bool is_alive(int cell, int evidence_state) const {
+    const auto e = static_cast<std::size_t>(evidence_state);
+    if (cell < first_cell_[e] || cell > last_cell_[e]) return false;
+    return mask_.alive.empty() || mask_.alive[e][static_cast<std::size_t>(cell - first_cell_[e])];
+  }
+
   std::size_t nodes() const { return nodes_; }
   std::size_t node(int cell, int state, int evidence_state) const {
     const auto e = static_cast<std::size_t>(evidence_state);
@@ -70,8 +89,9 @@ class Lattice {
                     [static_cast<std::size_t>(row_.position_class[static_cast<std::size_t>(cell)])];
   }
 
-  /// Masses of an element's widths when it is placed at a cell, not beyond the end of the space.
-  std::vector<WidthMass> widths(int cell, int element) const;
+  /// Masses of an element's widths when it is placed at a cell; they may reach beyond the end of the space.
+  /// `made` holds those that are not the same everywhere.
+  const std::vector<WidthMass>& widths(int cell, int element, std::vector<WidthMass>& made) const;
   /// Evidence is considered for rooms that start at this cell up to this one, exclusive.
   int reach(int cell) const { return reach_[static_cast<std::size_t>(cell)]; }
   /// The most cells that an edge spans.
@@ -82,7 +102,7 @@ class Lattice {
   std::pair<int, double> start() const;
 
  private:
-  std::vector<WidthMass> uniform_mass(const Element& element, int cell) const;
+  void uniform_mass(const Element& element, int cell, std::vector<WidthMass>& made) const;
   bool needs_fine_steps(int cell, int first, int last) const;
 
   const Row& row_;
@@ -98,6 +118,7 @@ class Lattice {
   std::vector<int> reach_;
   std::vector<std::size_t> offset_;
   std::size_t nodes_ = 0;
+  NodeMask mask_;  // empty: all
   int longest_ = 0;
   int shortest_ = 1;
 };
@@ -110,8 +131,6 @@ class Edges {
   /// The moves of an element from an evidence state at a cell. Their weights are without the arc's
   /// probability. Valid until another cell is asked for.
   const std::vector<Move>& moves(int cell, int element, int evidence_state);
-  const double* sum(const Move& move) const { return weights_.data() + move.sum; }
-  const double* max(const Move& move) const { return weights_.data() + move.max; }
 
  private:
   struct Known {
@@ -119,19 +138,30 @@ class Edges {
     int evidence_state = 0;
     std::vector<Move> moves;
   };
+  /// Masses with the likelihood of the doors, not beyond the end of the space.
+  struct Stretch {
+    int first = 1;
+    int stride = 1;
+    int count = 0;
+    const double* mass = nullptr;
+  };
   struct Prior {
     int element = 0;
-    std::vector<WidthMass> masses;  // with the likelihood of the doors
+    std::vector<WidthMass> made;
+    std::vector<Stretch> stretches;
   };
 
   const Prior& prior(int element);
-  void add(std::vector<Move>& moves, int evidence_state, int first_width, const std::vector<double>& sum,
-           const std::vector<double>& max, int matched);
-  void add_matches(std::vector<Move>& moves, const Element& element, const WidthMass& prior, int next);
+  double doors(const Element& element, int width) const;
+  double* store(int count);
+  bool weigh(const PreparedEvidence& e, const Element& element, const Stretch& widths, double* weights) const;
+  void add(std::vector<Move>& moves, int evidence_state, const Stretch& sum, const double* max, int matched);
+  void add_matches(std::vector<Move>& moves, const Element& element, const Stretch& prior, int next);
 
   const Lattice& lattice_;
   int cell_ = -1;
-  std::vector<double> weights_;
+  std::deque<std::vector<double>> buffers_;
+  std::size_t buffer_count_ = 0;
   std::deque<Known> known_;
   std::size_t known_count_ = 0;
   std::deque<Prior> priors_;

@@ -311,7 +311,11 @@ class Compiler {
     rest.required = kAny;
     const int last = placed.last_type();
     rest.last_room = last >= 0 && tracked_rooms_[static_cast<std::size_t>(last)] ? last : kUntracked;
-    pending_.push_back({element, state_of(rest), probability, steps_});
+    const int target = state_of(rest);
+    const auto [place, is_new] =
+        placements_.try_emplace({element, target}, static_cast<int>(row_.placements.size()));
+    if (is_new) row_.placements.push_back({element, target});
+    pending_.push_back({element, target, place->second, probability, steps_});
   }
 
   // -- elements
@@ -415,6 +419,7 @@ class Compiler {
   std::vector<Configuration> states_;
   std::map<Configuration, int> state_ids_;
   std::map<std::pair<const Item*, int>, std::vector<std::pair<int, double>>> elements_;
+  std::map<std::pair<int, int>, int> placements_;
   int background_ = -1;
   int current_rule_ = -1;
 

@@ -69,16 +69,24 @@ struct DerivationStep {
   int rule = -1;  ///< for `rewrite`
 };
 
+/// An element placed, and the state after it. Arcs of several states share placements.
+struct Placement {
+  int element = 0;
+  int target = 0;
+};
+
 /// From a state, at positions of one class: the steps taken, then the element that is placed.
 struct Arc {
   int element = 0;
   int target = 0;
+  int placement = 0;  ///< into Row::placements: element and target
   double probability = 0;
   std::vector<DerivationStep> steps;
 };
 
 struct Row {
   std::vector<Element> elements;
+  std::vector<Placement> placements;
   /// Positions with the same class have the same conditions true.
   std::vector<int> position_class;
   std::vector<std::vector<std::vector<Arc>>> arcs;  ///< [state][position class]; state 0 is the start

@@ -90,10 +90,10 @@ class Sequence {
       for (const LayerNode& from : layer(i)) {
         double most = 0;
         for_each_move(i, from, [&](std::size_t arc, const Move& move) {
-          const double* weights = edges_.max(move);
           const double* target = targets(from, arc, move);
           const double probability = lattice_.arcs(from.state, from.cell)[arc].probability;
-          for (int k = 0; k < move.count; ++k) most = std::max(most, probability * weights[k] * target[k]);
+          for (int k = 0; k < move.count; ++k)
+            most = std::max(most, probability * move.max[k] * target[k * move.stride]);
         });
         best_[i].push_back(most);
       }
@@ -115,15 +115,14 @@ class Sequence {
     for (const LayerNode& from : layer(i)) {
       double all = 0;
       for_each_move(i, from, [&](std::size_t arc, const Move& move) {
-        const double* weights = edges_.sum(move);
         const double* target = targets(from, arc, move);
         const double probability = lattice_.arcs(from.state, from.cell)[arc].probability;
         for (int k = 0; k < move.count; ++k) {
-          const double p = probability * weights[k] * target[k];
+          const double p = probability * move.sum[k] * target[k * move.stride];
           if (p <= 0) continue;
           all += p;
           m.add(from.sum * p, (from.cell - start_cell) * grid.step_m,
-                (move.first_cell + k - from.cell - width_cells) * grid.step_m);
+                (move.first_cell + k * move.stride - from.cell - width_cells) * grid.step_m);
         }
       });
       completions.push_back(all);
@@ -146,17 +145,20 @@ class Sequence {
       PathStep step;
       LayerNode next;
       for_each_move(i, at, [&](std::size_t arc, const Move& move) {
-        const double* weights = edges_.max(move);
         const double* target = targets(at, arc, move);
         const Arc& taken = lattice_.arcs(at.state, at.cell)[arc];
         for (int k = 0; k < move.count; ++k) {
-          const double value = taken.probability * weights[k] * target[k];
+          const double value = taken.probability * move.max[k] * target[k * move.stride];
           if (value <= most) continue;
           most = value;
-          step = {at.cell,           move.first_cell + k - at.cell, at.state,
-                  at.evidence_state, static_cast<int>(arc),         move.target_evidence,
+          step = {at.cell,
+                  move.first_cell + k * move.stride - at.cell,
+                  at.state,
+                  at.evidence_state,
+                  static_cast<int>(arc),
+                  move.target_evidence,
                   move.matched};
-          next = {move.first_cell + k, taken.target, move.target_evidence, 0, 0};
+          next = {move.first_cell + k * move.stride, taken.target, move.target_evidence, 0, 0};
         }
       });
       clear(i + 1);

@@ -23,6 +23,7 @@ class Search {
         log_total_(log_total(lattice, forward)),
         looks_(looks_of(lattice.row())),
         edges_(lattice),
+        departures_(lattice),
         scratch_(lattice.nodes(), 0) {
     for (const int look : looks_) look_count_ = std::max(look_count_, look + 1);
   }
@@ -98,8 +99,8 @@ class Search {
     const double factor = std::exp(a.log_weight - b.log_weight);
     auto at = a.layer.begin();
     for (const LayerNode& node : b.layer) {
-      while (at != a.layer.end() && at->node < node.node) ++at;
-      if (at == a.layer.end() || at->node != node.node || at->sum * factor < node.sum) return false;
+      while (at != a.layer.end() && at->place() < node.place()) ++at;
+      if (at == a.layer.end() || at->place() != node.place() || at->sum * factor < node.sum) return false;
     }
     return true;
   }
@@ -110,18 +111,22 @@ class Search {
     for (int look = 0; look < look_count_; ++look) {
       int first = lattice_.grid().cells + 1;
       int last = -1;
-      for (const LayerNode& from : prefix->layer) {
-        for (const Arc& arc : lattice_.arcs(from.state, from.cell)) {
-          if (looks_[static_cast<std::size_t>(arc.element)] != look) continue;
-          for (const Move& move : edges_.moves(from.cell, arc.element, from.evidence_state)) {
-            const double* weights = edges_.sum(move);
-            double* target = &scratch_[lattice_.node(move.first_cell, arc.target, move.target_evidence)];
-            const double factor = from.sum * arc.probability;
-            for (int i = 0; i < move.count; ++i) target[i] += factor * weights[i];
+      for (auto from = prefix->layer.begin(); from != prefix->layer.end();) {
+        const int cell = from->cell;
+        const int e = from->evidence_state;
+        for (; from != prefix->layer.end() && from->cell == cell && from->evidence_state == e; ++from)
+          for (const Arc& arc : lattice_.arcs(from->state, cell))
+            if (looks_[static_cast<std::size_t>(arc.element)] == look) departures_.add(arc, from->sum);
+        departures_.take([&](int id, double factor) {
+          const Placement& placement = lattice_.row().placements[static_cast<std::size_t>(id)];
+          for (const Move& move : edges_.moves(cell, placement.element, e)) {
+            double* target =
+                &scratch_[lattice_.node(move.first_cell, placement.target, move.target_evidence)];
+            for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
             first = std::min(first, move.first_cell);
-            last = std::max(last, move.first_cell + move.count - 1);
+            last = std::max(last, move.last_cell());
           }
-        }
+        });
       }
       if (last < 0) continue;
       std::vector<LayerNode> inner;
@@ -174,8 +179,6 @@ class Search {
       prefix->layer.push_back(layer[i]);
     }
     for (LayerNode& node : prefix->layer) node.sum /= sum;
-    std::sort(prefix->layer.begin(), prefix->layer.end(),
-              [](const LayerNode& a, const LayerNode& b) { return a.node < b.node; });
     prefix->before = before;
     prefix->look = look;
     prefix->log_weight = before->log_weight + std::log(sum);
@@ -210,6 +213,7 @@ class Search {
   std::vector<int> looks_;
   int look_count_ = 0;
   Edges edges_;
+  Departures departures_;
   std::vector<double> scratch_;  // [node]; zero but while children are made
   std::vector<PrefixPtr> found_;
 };

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "grammar/inference.h"
@@ -31,13 +32,15 @@ struct LayerNode {
   int evidence_state = 0;
   std::size_t node = 0;
   double sum = 0;  ///< over all paths of the prefix to the node, divided by exp(Prefix::log_weight)
+
+  auto place() const { return std::tie(cell, evidence_state, state); }
 };
 
 /// The first elements of a sequence. The looks are indices into looks_of(row).
 struct Prefix {
   std::shared_ptr<const Prefix> before;  ///< without the last element; null: the empty one
   int look = -1;
-  std::vector<LayerNode> layer;  ///< sorted by node; sums add up to 1
+  std::vector<LayerNode> layer;  ///< by cell, evidence state, state; sums add up to 1
   double log_weight = 0;         ///< ln of the sum over all paths of the prefix
   double log_posterior = 0;      ///< ln of the probability that the layout begins with it
   double mean_cell = 0;          ///< where it ends, on average
