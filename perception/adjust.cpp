@@ -38,8 +38,10 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
     const double weight = 1 / (point.sigma_m * point.sigma_m);
     view.count += 1;
     view.weight += weight;
-    view.outer.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-    view.right -= weight * residual * row;
+    const Row weighted = weight * row;
+    for (int j = 0; j < 9; ++j)
+      for (int i = j; i < 9; ++i) view.outer(i, j) += weighted[i] * row[j];
+    view.right -= residual * weighted;
   }
   for (View& view : views) view.outer = view.outer.selfadjointView<Eigen::Lower>();
 

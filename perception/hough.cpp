@@ -7,6 +7,7 @@
 #include "perception/accumulator.h"
 #include "perception/neighbourhood.h"
 #include "perception/plane_fit.h"
+#include "perception/plane_refit.h"
 
 namespace gramap {
 namespace {
@@ -204,52 +205,7 @@ std::optional<PlanePatch> grow(const std::vector<Point>& points, const std::vect
   return patch;
 }
 
-/// One pass over the whole cloud: every point goes to the nearest plane that has it, and the planes are
-/// fitted anew.
-void refit(std::vector<PlanePatch>& patches, std::span<const Point> points, const Point& centre) {
-  std::vector<Moments> moments(patches.size());
-  std::vector<Eigen::Vector4f> planes;
-  for (const PlanePatch& patch : patches) {
-    Eigen::Vector4f plane;
-    plane << patch.normal.cast<float>(), static_cast<float>(-patch.rho_m);
-    planes.push_back(plane);
-  }
-  for (const Point& raw : points) {
-    const Point point = raw - centre;
-    float best_distance = 1e30f;
-    std::size_t best = patches.size();
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      const float distance = std::abs(planes[i].head<3>().dot(point) + planes[i][3]);
-      if (distance < best_distance && distance <= static_cast<float>(patches[i].band_m) &&
-          patches[i].covers(point.cast<double>())) {
-        best_distance = distance;
-        best = i;
-      }
-    }
-    if (best < patches.size()) moments[best].add(point.cast<double>());
-  }
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    PlanePatch& patch = patches[i];
-    patch.support = static_cast<std::size_t>(moments[i].weight);
-    if (patch.support < 3) continue;
-    const FittedPlane plane = fit_plane(moments[i]);
-    const bool same =
-        plane.normal.dot(patch.normal) > 0;  // a plane through the origin may come out turned round
-    patch.normal = same ? plane.normal : -plane.normal;
-    patch.rho_m = same ? plane.rho_m : -plane.rho_m;
-    patch.rms_m = plane.rms_m;
-  }
-}
-
 }  // namespace
-
-bool PlanePatch::covers(const Vec3& point) const {
-  const Vec3 offset = point - corner;
-  const double x = u.dot(offset) / cell_m, y = v.dot(offset) / cell_m;
-  if (!(x >= 0 && y >= 0 && x < columns && y < rows)) return false;
-  return occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-                  static_cast<std::size_t>(x)] != 0;
-}
 
 std::vector<PlanePatch> detect_planes(std::span<const Point> points, const HoughOptions& options) {
   std::vector<PlanePatch> patches;
@@ -288,7 +244,7 @@ std::vector<PlanePatch> detect_planes(std::span<const Point> points, const Hough
     patches.push_back(*patch);
   }
 
-  refit(patches, points, centre);
+  refit_planes(patches, points, centre);
   for (PlanePatch& patch : patches) {  // back to the cloud's origin
     const Vec3 shift = centre.cast<double>();
     patch.corner += shift;

@@ -8,7 +8,7 @@
 namespace gramap {
 namespace {
 
-constexpr std::size_t kMeasuredPoints = 100000;  // enough: what is left of the error is not the points' noise
+constexpr std::size_t kMeasuredPoints = 60000;  // enough: what is left of the error is not the points' noise
 
 struct Stretch {
   double from, to;
@@ -123,7 +123,8 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
   RangeNoise noise;
   // Every round starts from the scans as they came: what is known of their errors beforehand is used once.
   std::vector<Eigen::Isometry3d> corrections(scanners.size(), Eigen::Isometry3d::Identity());
-  for (int round = 0; round < 8; ++round) {
+  double moved_m = 1;
+  for (int round = 0; round < 8 && moved_m > 1e-4; ++round) {
     tidy(outline, lines, min_edge_m);
     const std::size_t edges = outline.ring.size();
     room.plane_of_edge.clear();
@@ -140,7 +141,11 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     }
     const std::vector<PlanePoint> points =
         gather(room.planes, noise, stretches, outline.ring, cloud, scanners, corrections);
+    const std::vector<AdjustedPlane> before = room.planes;
     room.adjustment = adjust(room.planes, points, scanners);
+    moved_m = 0;
+    for (std::size_t p = 0; p < before.size(); ++p)
+      moved_m = std::max(moved_m, (room.planes[p].middle - before[p].middle).norm());
     corrections = room.adjustment.corrected_from_registered;
     noise.learn(points, room.planes, scanners, corrections);
     for (std::size_t l = 0; l < lines.size(); ++l) {
