@@ -12,6 +12,7 @@
 #include "app/verbs.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
+#include "perception/debug.h"
 
 namespace gramap {
 namespace {
@@ -22,6 +23,7 @@ struct Options {
   std::vector<std::string> folders;
   std::string output = "-";
   std::string unit, up = "z";
+  std::string debug;
   bool verbose = false;
   PerceptionOptions perception;
 };
@@ -73,6 +75,12 @@ int run(const Options& options) {
   for (const fs::path& folder : rooms) {
     try {
       if (options.verbose) std::fprintf(stderr, "%s\n", folder.c_str());
+      if (!options.debug.empty())
+        perception.on_found = [&](const Perception& found) {
+          fs::path to = options.debug;
+          if (many) to /= folder.filename();
+          write_debug(to, found);
+        };
       const RoomObservation room = perceive_room(read_room_scans(folder, reading), perception);
       fs::path output = options.output;
       if (many) {
@@ -115,6 +123,8 @@ Verb declare_perceive(CLI::App& gramap) {
       ->capture_default_str();
   verb->add_option("--seed", options->perception.hough.seed, "Seed of the random triples")
       ->capture_default_str();
+  verb->add_option("--debug", options->debug,
+                   "Folder for what each stage saw: planes.ply, planes.txt, plan.svg (for several rooms, a folder each)");
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
   return [options] { return run(*options); };
 }

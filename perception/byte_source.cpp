@@ -1,5 +1,7 @@
 #include <zlib.h>
 
+#include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 
@@ -35,6 +37,85 @@ std::size_t ByteSource::read(char* to, std::size_t size) {
                      std::string("cannot be unpacked: ") + (code == Z_ERRNO ? std::strerror(errno) : reason),
                      "the file is damaged or was cut short; copy it again");
   return static_cast<std::size_t>(got);
+}
+
+bool LineReader::fill() {
+  if (at_ < end_) return true;
+  at_ = 0;
+  end_ = source_.read(buffer_.data(), buffer_.size());
+  return end_ > 0;
+}
+
+bool LineReader::next(std::string& line) {
+  line.clear();
+  bool any = false;
+  while (fill()) {
+    any = true;
+    const char* const begin = buffer_.data() + at_;
+    const void* const newline = std::memchr(begin, '\n', end_ - at_);
+    const std::size_t length =
+        newline ? static_cast<std::size_t>(static_cast<const char*>(newline) - begin) : end_ - at_;
+    line.append(begin, length);
+    if (line.size() > (1 << 16))
+      throw InputError({path().string(), number_ + 1}, "the line is longer than 64 KiB");
+    at_ += length + (newline ? 1 : 0);
+    if (newline) break;
+  }
+  if (!any) return false;
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  ++number_;
+  return true;
+}
+
+std::size_t LineReader::bytes(char* to, std::size_t size) {
+  std::size_t done = 0;
+  while (done < size && fill()) {
+    const std::size_t count = std::min(size - done, end_ - at_);
+    std::memcpy(to + done, buffer_.data() + at_, count);
+    at_ += count;
+    done += count;
+  }
+  return done;
+}
+
+double number_at(const char* bytes, NumberType type, bool big_endian) {
+  static_assert(std::endian::native == std::endian::little);
+  char own[8];
+  for (std::size_t i = 0; i < type.size; ++i) own[i] = bytes[big_endian ? type.size - 1 - i : i];
+  const auto as = [&](auto value) {
+    std::memcpy(&value, own, sizeof value);
+    return static_cast<double>(value);
+  };
+  if (type.kind == 'f') return type.size == 8 ? as(double{}) : as(float{});
+  const bool is_signed = type.kind == 'i';
+  if (type.size == 1) return is_signed ? as(std::int8_t{}) : as(std::uint8_t{});
+  if (type.size == 2) return is_signed ? as(std::int16_t{}) : as(std::uint16_t{});
+  if (type.size == 4) return is_signed ? as(std::int32_t{}) : as(std::uint32_t{});
+  return is_signed ? as(std::int64_t{}) : as(std::uint64_t{});
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(" \t\r", at)) != std::string::npos) {
+    const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+std::vector<Point> read_points(const std::filesystem::path& path) {
+  std::filesystem::path name = path;
+  if (name.extension() == ".gz") name = name.stem();
+  const std::string kind = name.extension().string();
+  if (kind == ".ply") return read_ply(path);
+  if (kind == ".pcd") return read_pcd(path);
+  std::vector<Point> points = read_xyz(path);
+  // 3DTK's own: centimetres in its left-handed frame.
+  if (kind == ".3d")
+    for (Point& p : points) p = Point(p.z(), -p.x(), p.y()) / 100;
+  return points;
 }
 
 }  // namespace gramap

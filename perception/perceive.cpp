@@ -28,12 +28,7 @@ class Stages {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace
-
-Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
-                              const PerceptionOptions& options) {
-  Perception found;
-  found.cloud = std::move(cloud);
+void run_stages(Perception& found, const std::string& room, const PerceptionOptions& options) {
   Stages stages(options);
   found.planes = detect_planes(found.cloud.points_m, options.hough);
   stages.end("planes");
@@ -80,6 +75,20 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
   measure_extent(seen, measured);
   seen.remarks = found.outline.remarks;
   stages.end("measures");
+}
+
+}  // namespace
+
+Perception perceive_structure(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options) {
+  Perception found;
+  found.cloud = std::move(cloud);
+  try {
+    run_stages(found, room, options);
+  } catch (const InputError&) {
+    if (options.on_found) options.on_found(found);
+    throw;
+  }
+  if (options.on_found) options.on_found(found);
   return found;
 }
 

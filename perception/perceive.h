@@ -11,12 +11,16 @@
 
 namespace gramap {
 
+struct Perception;
+
 struct PerceptionOptions {
   HoughOptions hough;
   WallOptions walls;
   OutlineOptions outline;
   /// Called after each stage with its name and seconds; may be empty.
   std::function<void(const std::string& stage, double seconds)> on_stage;
+  /// Called with what the stages found, also when they found no room; may be empty.
+  std::function<void(const Perception& found)> on_found;
 };
 
 /// What the stages found, each in the registered cloud's frame (relative to cloud.origin_m).

@@ -20,8 +20,14 @@ namespace fs = std::filesystem;
 /// 3DTK's left-handed axes from the right-handed ones: p_l = 100 · kLeftFromRight · p.
 const Eigen::Matrix3d kLeftFromRight = (Eigen::Matrix3d() << 0, -1, 0, 0, 0, 1, 1, 0, 0).finished();
 
-bool is_scan(const fs::path& file) {
-  return file.extension() == ".xyz";
+/// The name of a scan without its folder and its kind; empty for other files.
+std::string stem_of(const fs::path& file) {
+  fs::path name = file.filename();
+  if (name.extension() == ".gz") name = name.stem();
+  const std::string kind = name.extension().string();
+  for (const char* known : {".xyz", ".asc", ".ply", ".pcd", ".3d"})
+    if (kind == known) return name.stem().string();
+  return "";
 }
 
 /// Median distance of the points from the scanner, from a sample.
@@ -51,7 +57,7 @@ void check_unit(const Scan& scan) {
 Scan read_scan(const fs::path& file, const ReadOptions& options) {
   Scan scan;
   scan.file = file;
-  scan.points_m = read_xyz(file);
+  scan.points_m = read_points(file);
   if (scan.points_m.empty())
     throw InputError({file.string()}, "the scan has no points", "remove the file, or export the scan again");
   if (options.unit_m > 0)
@@ -60,7 +66,7 @@ Scan read_scan(const fs::path& file, const ReadOptions& options) {
     check_unit(scan);
   if (options.up == 'y')
     for (Point& point : scan.points_m) point = Point(point.x(), -point.z(), point.y());
-  const fs::path pose = fs::path(file).replace_extension(".pose");
+  const fs::path pose = file.parent_path() / (stem_of(file) + ".pose");
   if (fs::exists(pose)) scan.room_from_scanner = pose_from_text(read_file(pose), pose);
   return scan;
 }
@@ -117,12 +123,12 @@ RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
     files.push_back(folder);
   } else {
     for (fs::directory_iterator it(folder, error), last; !error && it != last; it.increment(error))
-      if (is_scan(it->path())) files.push_back(it->path());
+      if (it->is_regular_file() && !stem_of(it->path()).empty()) files.push_back(it->path());
     if (error) throw InputError({folder.string()}, "cannot be read: " + error.message());
   }
   if (files.empty())
     throw InputError({folder.string()}, "there are no scans here",
-                     "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, …");
+                     "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, … (or .ply, .pcd, .3d, each also .gz)");
   std::sort(files.begin(), files.end());
 
   RoomScans room;
