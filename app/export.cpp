@@ -1,14 +1,20 @@
-// `gramap export`: a floor whose rooms are known, written as a model.
+// `gramap export`: models and known floors in, other formats out; several floors become a building.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/verbs.h"
+#include "floor/fitted_geojson.h"
 #include "floor/floor_of_truth.h"
 #include "floor/gltf.h"
-#include "floor/model.h"
+#include "floor/read_model.h"
+#include "floor/stack.h"
+#include "floor/svg.h"
 #include "floor/verify.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
@@ -18,30 +24,106 @@ namespace gramap {
 namespace {
 
 struct Options {
-  std::string input;
-  std::string output;
+  std::vector<std::string> inputs;
+  std::vector<std::string> outputs;
+  GltfOptions gltf;
+  SvgOptions svg;
+  bool quiet = false;
 };
 
+std::string extension(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+std::vector<FittedFloor> read_floors(const std::vector<std::string>& inputs, RunInfo& run) {
+  std::vector<FittedFloor> floors;
+  for (const std::string& input : inputs) {
+    if (extension(input) == ".glb" || extension(input) == ".gltf") {
+      for (FittedFloor& storey : read_model(input).storeys) floors.push_back(std::move(storey));
+    } else {
+      const FloorGroundTruth floor = read_floor(input);
+      floors.push_back(floor_of_truth(floor, read_truth(input, floor.origin)));
+    }
+    if (std::filesystem::is_regular_file(input))
+      run.input_hashes.emplace_back(std::filesystem::path(input).filename().string(),
+                                    hash_hex(read_file(input)));
+  }
+  return floors;
+}
+
+std::string written(const std::string& output, const std::vector<FloorModel>& storeys, const RunInfo& run,
+                    const Options& options) {
+  const std::string type = extension(output);
+  if (type == ".glb") return to_glb(storeys, run, options.gltf);
+  if (type == ".gltf") return to_gltf(storeys, run, options.gltf);
+  if (storeys.size() > 1)
+    throw InputError({output}, "a plan is of one floor, and there are " + std::to_string(storeys.size()),
+                     "export each floor by itself, or the building as .glb");
+  if (type == ".svg") return to_svg(storeys.front(), options.svg);
+  return to_geojson(storeys.front().fitted);
+}
+
 int run(const Options& options) {
-  const FloorGroundTruth floor = read_floor(options.input);
-  const FloorModel model = build_model(floor_of_truth(floor, read_truth(options.input, floor.origin)));
-  const VerifyReport report = verify(model);
-  std::fputs(to_text(report).c_str(), stderr);
-  if (!report.ok()) return kDefect;
-  RunInfo run;
-  run.version = GRAMAP_VERSION;
-  write_file(options.output, to_glb(model, run));
-  return kDone;
+  for (const std::string& output : options.outputs) {
+    const std::string type = extension(output);
+    if (type != ".glb" && type != ".gltf" && type != ".svg" && type != ".geojson")
+      throw InputError({output}, "the format '" + type + "' is not known",
+                       "end the name in .glb, .gltf, .svg or .geojson");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  RunInfo info;
+  info.version = GRAMAP_VERSION;
+  const std::vector<FloorModel> storeys = build_storeys(read_floors(options.inputs, info));
+  bool set_aside = false;
+  for (const FloorModel& storey : storeys) {
+    const VerifyReport report = verify(storey);
+    if (!options.quiet || !report.ok()) std::fputs(to_text(report).c_str(), stderr);
+    if (!report.ok()) {
+      std::fputs(
+          "gramap: the model did not pass verification, so nothing was written; please report this with the "
+          "inputs\n",
+          stderr);
+      return kDefect;
+    }
+    for (const SetAsideInput& aside : storey.set_aside) {
+      std::fprintf(stderr, "gramap: warning: %s was set aside: %s\n", aside.what.c_str(),
+                   aside.reason.c_str());
+      set_aside = true;
+    }
+  }
+  for (const std::string& output : options.outputs) {
+    const std::string bytes = written(output, storeys, info, options);
+    write_file(output, bytes);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!options.quiet)
+      std::fprintf(stderr, "gramap: wrote %s, %.1f kB, %.2f s\n", output.c_str(),
+                   static_cast<double>(bytes.size()) / 1000, seconds);
+  }
+  return set_aside ? kSetAside : kDone;
 }
 
 }  // namespace
 
 Verb declare_export(CLI::App& gramap) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = gramap.add_subcommand("export", "Write a floor whose rooms are known as a model");
-  verb->add_option("floor", options->input, "A floor folder with truth.geojson, or one file that holds both")
+  CLI::App* verb = gramap.add_subcommand("export",
+                                         "Write models, or floors whose rooms are known, as .glb, .gltf, "
+                                         ".svg or .geojson; several floors become a building");
+  verb->add_option("inputs", options->inputs,
+                   "Models (.glb, .gltf), floor folders with truth.geojson, or .geojson files that hold "
+                   "floor and rooms")
       ->required();
-  verb->add_option("-o,--output", options->output, "The model to write (.glb)")->required();
+  verb->add_option("-o,--output", options->outputs,
+                   "What to write, by its ending; may be given several times")
+      ->required();
+  verb->add_flag(
+      "--confidence", options->gltf.confidence_colours,
+      "Colour the rooms' floors by the standard deviation of their widths, green 1 cm to red 50 cm");
+  verb->add_flag("--volumes", options->gltf.room_volumes, "Add a closed volume to every room");
+  verb->add_option("--scale", options->svg.scale, "The plan's scale: 100 is 1:100")
+      ->capture_default_str()
+      ->check(CLI::Range(10, 5000));
+  verb->add_flag("-q,--quiet", options->quiet, "Say nothing but faults");
   return [options] { return run(*options); };
 }
 

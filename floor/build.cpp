@@ -236,8 +236,10 @@ void add_slab(FloorModel& model) {
 
 }  // namespace
 
-FloorModel build_model(const FittedFloor& fitted) {
+FloorModel build_model(const FittedFloor& fitted, const BuildOptions& options) {
   FloorModel model;
+  model.slab_thickness_m = options.slab_thickness_m;
+  model.finish_m = options.finish_m;
   model.fitted = fitted;
   model.name = fitted.floor.name;
   model.elevation_m = fitted.floor.elevation_m;

@@ -72,6 +72,7 @@ FittedRoom room_of(const json& about, const std::string& name) {
   room.extracted_sigma_m = optional_number(about, "extracted_sigma");
   room.type_probability = number(about, "type_probability", 1);
   room.rule = text(about, "rule");
+  room.rule_path = texts(member(about, "rule_path"));
   room.scans = texts(member(about, "scans"));
   return room;
 }
@@ -159,6 +160,7 @@ ordered extras_of_room(const FittedRoom& room, const char* kind) {
   }
   if (room.extracted_width_m) about["extracted_width"] = *room.extracted_width_m;
   if (room.extracted_sigma_m) about["extracted_sigma"] = *room.extracted_sigma_m;
+  if (!room.rule_path.empty()) about["rule_path"] = room.rule_path;
   if (!room.scans.empty()) about["scans"] = room.scans;
   return about;
 }

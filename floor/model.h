@@ -74,8 +74,13 @@ struct FloorModel {
   std::vector<SetAsideInput> set_aside;  ///< openings and furniture that had no place, and why
 };
 
+struct BuildOptions {
+  double slab_thickness_m = 0.3;  ///< of the floor slab, below the finished floor
+  double finish_m = 0.02;         ///< the slab's top lies so much below the finished floor
+};
+
 /// Builds the model. Throws InputError when the floor's own geometry cannot be built (a self-crossing
 /// outline, a hallway that touches it, overlapping rooms), naming the parts and the place.
-FloorModel build_model(const FittedFloor& fitted);
+FloorModel build_model(const FittedFloor& fitted, const BuildOptions& options = {});
 
 }  // namespace gramap

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "floor/reachable.h"
+#include "geometry/polygon.h"
 #include "geometry/watertight.h"
 
 namespace gramap {
@@ -106,6 +108,47 @@ void check_solids(const FloorModel& model, VerifyReport& report) {
   }
 }
 
+/// Every opening has its cut in a wall, and walls reach above its head.
+void check_openings(const FloorModel& model, VerifyReport& report) {
+  std::vector<int> cuts(model.openings.size(), 0);
+  for (const PlanCell& cell : model.plan.cells)
+    if (cell.opening >= 0 && cell.kind == PlanCell::Kind::wall) ++cuts[cell.opening];
+  for (std::size_t o = 0; o < model.openings.size(); ++o) {
+    const ModelOpening& opening = model.openings[o];
+    const Vec3 at(opening.fitted.a.x(), opening.fitted.a.y(), opening.fitted.sill_m);
+    if (cuts[o] != 1 || opening.wall < 0)
+      report.faults.push_back({"opening", opening.node + " is not cut through a wall", at});
+    if (opening.fitted.sill_m < 0 || opening.fitted.head_m >= model.height_m ||
+        opening.fitted.head_m <= opening.fitted.sill_m)
+      report.faults.push_back({"opening", opening.node + " reaches out of its wall", at});
+  }
+}
+
+/// Rooms that no door or open border joins to a hallway or the outside. Says nothing of a floor without any
+/// doors.
+void check_doors(const FloorModel& model, VerifyReport& report) {
+  std::vector<std::pair<std::string, std::string>> passages;
+  for (const ModelOpening& opening : model.openings)
+    if (opening.fitted.kind == "door") passages.emplace_back(opening.room, opening.other);
+  if (passages.empty()) return;
+  for (const PlanCell& cell : model.plan.cells)
+    if (cell.kind == PlanCell::Kind::room)
+      for (const int other : cell.touching)
+        if (other != kOutside)
+          passages.emplace_back(model.rooms[cell.room].fitted.id, model.rooms[other].fitted.id);
+  std::vector<std::string> ids, from{"outside"};
+  for (const ModelRoom& room : model.rooms) {
+    ids.push_back(room.fitted.id);
+    if (room.kind == ModelRoom::Kind::hallway) from.push_back(room.fitted.id);
+  }
+  for (const std::string& id : unreachable(ids, passages, from))
+    for (const ModelRoom& room : model.rooms)
+      if (room.fitted.id == id) {
+        const Vec2 at = centroid(room.fitted.outline);
+        report.warnings.push_back({"unreachable", "no door leads to " + room.node, Vec3(at.x(), at.y(), 0)});
+      }
+}
+
 }  // namespace
 
 VerifyReport verify(const FloorModel& model) {
@@ -113,6 +156,8 @@ VerifyReport verify(const FloorModel& model) {
   count(model, report.totals);
   check_plan(model, report);
   check_solids(model, report);
+  check_openings(model, report);
+  check_doors(model, report);
   return report;
 }
 
