@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
       declare_export,    //
       declare_perceive,  //
       declare_simulate,  //
+      declare_verify,    //
+      declare_view,      //
   };
   for (const auto declare : verbs) {
     const Verb verb = declare(app);

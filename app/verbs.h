@@ -27,5 +27,7 @@ Verb declare_plan(CLI::App& gramap);
 Verb declare_export(CLI::App& gramap);
 Verb declare_perceive(CLI::App& gramap);
 Verb declare_simulate(CLI::App& gramap);
+Verb declare_verify(CLI::App& gramap);
+Verb declare_view(CLI::App& gramap);
 
 }  // namespace gramap

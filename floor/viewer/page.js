@@ -1,0 +1,398 @@
+// The viewer of `gramap view`: reads the glTF that stands in the page, merges its meshes by material (a floor of a
+// thousand rooms is then a few dozen draw calls), and shows it to orbit, to walk and as a plan.
+(function () {
+  'use strict';
+  const THREE = window.THREE;
+  const $ = (id) => document.getElementById(id);
+  const state = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+
+  // ---- the model: nodes, things (nodes with extras.gramap), triangles ----
+  const bytes = Uint8Array.from(atob($('model').textContent.trim()), (c) => c.charCodeAt(0));
+  const jsonLength = new DataView(bytes.buffer).getUint32(12, true);
+  const gltf = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + jsonLength)));
+  const data = 28 + jsonLength;
+
+  function accessor(index) {
+    const a = gltf.accessors[index], view = gltf.bufferViews[a.bufferView];
+    const width = { SCALAR: 1, VEC3: 3 }[a.type];
+    const Type = { 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array }[a.componentType];
+    return new Type(bytes.buffer, data + (view.byteOffset || 0) + (a.byteOffset || 0), a.count * width);
+  }
+
+  const things = [];
+  const buckets = new Map();
+  const origin = { x: 0, y: 0 };
+  for (const node of gltf.nodes) {
+    const local = node.extras && node.extras.gramap && node.extras.gramap.local_origin;
+    if (local) { origin.x = local[0]; origin.y = local[1]; }
+  }
+
+  function visit(index, matrix, thing, floor) {
+    const node = gltf.nodes[index];
+    const about = node.extras && node.extras.gramap;
+    if (about) {
+      thing = { node: node.name, label: node.extras.Name, about: about, floor: floor };
+      if (about.kind === 'floor') floor = thing;
+      things.push(thing);
+    }
+    const local = new THREE.Matrix4().compose(
+      new THREE.Vector3().fromArray(node.translation || [0, 0, 0]),
+      new THREE.Quaternion().fromArray(node.rotation || [0, 0, 0, 1]), new THREE.Vector3(1, 1, 1));
+    const world = new THREE.Matrix4().multiplyMatrices(matrix, local);
+    if (node.mesh !== undefined && !/_volume$/.test(node.name)) {
+      const kind = thing ? thing.about.kind : '';
+      const layer = /_ceiling$/.test(node.name) ? 'ceilings' : kind === 'furniture' ? 'furniture'
+        : kind === 'door' || kind === 'window' ? 'openings' : 'building';
+      for (const primitive of gltf.meshes[node.mesh].primitives) add(layer, primitive, world, thing);
+    }
+    for (const child of node.children || []) visit(child, world, thing, floor);
+  }
+
+  function add(layer, primitive, world, thing) {
+    const key = layer + '|' + primitive.material;
+    if (!buckets.has(key)) buckets.set(key, { layer: layer, material: primitive.material, parts: [], points: 0, corners: 0 });
+    const bucket = buckets.get(key);
+    const part = {
+      position: accessor(primitive.attributes.POSITION), normal: accessor(primitive.attributes.NORMAL),
+      index: accessor(primitive.indices), world: world, thing: thing, first: bucket.corners / 3,
+    };
+    bucket.parts.push(part);
+    bucket.points += part.position.length / 3;
+    bucket.corners += part.index.length;
+  }
+
+  for (const root of gltf.scenes[gltf.scene || 0].nodes) visit(root, new THREE.Matrix4(), null, null);
+  const rooms = things.filter((t) => ['room', 'hallway', 'fixed'].includes(t.about.kind));
+  const floors = things.filter((t) => t.about.kind === 'floor');
+
+  // ---- the scene ----
+  const scene = new THREE.Scene();
+  const layers = {};
+  let triangles = 0;
+  for (const bucket of buckets.values()) {
+    const position = new Float32Array(bucket.points * 3), normal = new Float32Array(bucket.points * 3);
+    const index = new Uint32Array(bucket.corners);
+    const p = new THREE.Vector3(), turn = new THREE.Matrix3();
+    let point = 0, corner = 0;
+    for (const part of bucket.parts) {
+      turn.getNormalMatrix(part.world);
+      for (let i = 0; i < part.position.length; i += 3) {
+        p.fromArray(part.position, i).applyMatrix4(part.world).toArray(position, point * 3 + i);
+        p.fromArray(part.normal, i).applyMatrix3(turn).toArray(normal, point * 3 + i);
+      }
+      for (let i = 0; i < part.index.length; ++i) index[corner + i] = part.index[i] + point;
+      point += part.position.length / 3;
+      corner += part.index.length;
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(position, 3));
+    geometry.setAttribute('normal', new THREE.BufferAttribute(normal, 3));
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    const [r, g, b, alpha] = gltf.materials[bucket.material].pbrMetallicRoughness.baseColorFactor;
+    const clear = alpha !== undefined && alpha < 1;
+    const material = new THREE.MeshLambertMaterial({
+      color: new THREE.Color(r, g, b), transparent: clear, opacity: clear ? alpha : 1, depthWrite: !clear,
+      side: bucket.layer === 'ceilings' ? THREE.DoubleSide : THREE.FrontSide,
+    });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.castShadow = !clear;
+    mesh.receiveShadow = !clear;
+    mesh.userData.parts = bucket.parts;
+    layers[bucket.layer] = layers[bucket.layer] || new THREE.Group();
+    layers[bucket.layer].add(mesh);
+    triangles += bucket.corners / 3;
+  }
+  Object.values(layers).forEach((group) => scene.add(group));
+
+  const box = new THREE.Box3().setFromObject(scene);
+  const middle = box.getCenter(new THREE.Vector3()), extent = box.getSize(new THREE.Vector3());
+  const radius = extent.length() / 2;
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.72));
+  const sun = new THREE.DirectionalLight(0xfff4e2, 0.5);
+  sun.position.copy(middle).add(new THREE.Vector3(0.45, 1, 0.3).multiplyScalar(2 * radius));
+  sun.target.position.copy(middle);
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(4096, 4096);
+  Object.assign(sun.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: radius / 10, far: 5 * radius });
+  sun.shadow.bias = -0.0012;
+  scene.add(sun, sun.target);
+
+  const selection = new THREE.Group();
+  scene.add(selection);
+
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+  } catch (error) {
+    $('view').innerHTML = '<p id="fault">This browser shows no 3D (WebGL is off). The table and the plan work without it.</p>';
+  }
+  const perspective = new THREE.PerspectiveCamera(50, 1, 0.05, 20 * radius + 100);
+  const flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 4 * radius + 100);
+  let camera = perspective, orbit = null, walking = false, yaw = 0, pitch = 0;
+  if (renderer) {
+    renderer.gammaOutput = true;
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    renderer.shadowMap.autoUpdate = false;
+    $('view').appendChild(renderer.domElement);
+  }
+
+  function draw() {
+    if (renderer) renderer.render(scene, camera);
+  }
+  function redrawShadows() {
+    if (renderer) renderer.shadowMap.needsUpdate = true;
+    draw();
+  }
+  function resize() {
+    if (!renderer) return;
+    const width = $('view').clientWidth, height = $('view').clientHeight;
+    renderer.setPixelRatio(window.devicePixelRatio);
+    renderer.setSize(width, height);
+    perspective.aspect = width / height;
+    perspective.updateProjectionMatrix();
+    const half = Math.max(extent.z / 2, (extent.x / 2) * (height / width)) * 1.12;
+    Object.assign(flat, { left: (-half * width) / height, right: (half * width) / height, top: half, bottom: -half });
+    flat.updateProjectionMatrix();
+    draw();
+  }
+
+  // ---- views ----
+  function control(target) {
+    if (orbit) orbit.dispose();
+    orbit = null;
+    if (!renderer || walking) return;
+    orbit = new THREE.OrbitControls(camera, renderer.domElement);
+    orbit.target.copy(target);
+    orbit.enableRotate = camera === perspective;
+    orbit.screenSpacePanning = true;
+    if (camera === flat) orbit.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.DOLLY, RIGHT: THREE.MOUSE.PAN };
+    orbit.addEventListener('change', draw);
+    orbit.update();
+  }
+  function show(layer, visible) {
+    if (layers[layer]) layers[layer].visible = visible;
+    const tick = document.querySelector('[data-layer=' + layer + ']');
+    if (tick) tick.checked = visible;
+  }
+  function toScene(p, height) {
+    return new THREE.Vector3(p[0] - origin.x, height, -(p[1] - origin.y));
+  }
+  function middleOf(outline) {
+    let area = 0, x = 0, y = 0;
+    outline.forEach((p, i) => {
+      const q = outline[(i + 1) % outline.length], cross = p[0] * q[1] - q[0] * p[1];
+      area += cross; x += (p[0] + q[0]) * cross; y += (p[1] + q[1]) * cross;
+    });
+    return [x / (3 * area), y / (3 * area)];
+  }
+  function stand(room) {
+    const at = middleOf(room.about.outline), base = room.floor ? room.floor.about.elevation : 0;
+    // In the corner farthest from the middle, looking across.
+    const corner = room.about.outline.reduce((far, p) =>
+      Math.hypot(p[0] - at[0], p[1] - at[1]) > Math.hypot(far[0] - at[0], far[1] - at[1]) + 1e-6 ? p : far);
+    const from = [at[0] + (corner[0] - at[0]) * 0.86, at[1] + (corner[1] - at[1]) * 0.86];
+    perspective.position.copy(toScene(from, base + 1.6));
+    const toward = toScene([at[0] * 2 - from[0], at[1] * 2 - from[1]], base + 1.0).sub(perspective.position);
+    yaw = Math.atan2(-toward.x, -toward.z);
+    pitch = Math.atan2(toward.y, Math.hypot(toward.x, toward.z));
+    look();
+  }
+  function look() {
+    perspective.rotation.set(pitch, yaw, 0, 'YXZ');
+    draw();
+  }
+  const hints = {
+    orbit: 'drag: turn · right drag: move · wheel: nearer · click: what is this?',
+    walk: 'W A S D or arrows: walk · drag: look around · click a room: its numbers',
+    plan: 'drag: move · wheel: nearer · click a room: its numbers',
+  };
+  function setView(name) {
+    document.querySelectorAll('#tools button').forEach((b) => b.classList.toggle('on', b.dataset.view === name));
+    $('plan').style.display = name === 'drawing' ? 'block' : 'none';
+    if (name === 'drawing') return;
+    walking = name === 'inside';
+    camera = name === 'plan' ? flat : perspective;
+    show('ceilings', name === 'outside' || walking);
+    perspective.fov = walking ? 75 : 50;
+    $('hint').textContent = hints[walking ? 'walk' : name === 'plan' ? 'plan' : 'orbit'];
+    const target = middle.clone();
+    if (name === 'plan') {
+      flat.position.copy(middle).setY(box.max.y + radius);
+      flat.up.set(0, 0, -1);
+      flat.lookAt(middle);
+      target.y = 0;
+    } else if (!walking) {
+      const direction = name === 'outside' ? new THREE.Vector3(0.5, 0.42, 0.85) : new THREE.Vector3(0.12, 1, 0.62);
+      perspective.position.copy(middle).add(direction.normalize().multiplyScalar(radius * 1.95));
+      perspective.lookAt(middle);
+    }
+    resize();
+    control(target);
+    if (walking) stand(selected || rooms.find((r) => r.about.kind === 'room') || rooms[0]);
+    redrawShadows();
+  }
+
+  // ---- numbers ----
+  const metres = (x) => (x === undefined ? '' : x.toFixed(2) + ' m');
+  const sigma = (x) => (x === undefined || x === 0 ? '' : ' ± ' + (100 * x).toFixed(1) + ' cm');
+  const areaOf = (outline) => Math.abs(outline.reduce((sum, p, i) => {
+    const q = outline[(i + 1) % outline.length];
+    return sum + (p[0] * q[1] - q[0] * p[1]) / 2;
+  }, 0));
+  function element(tag, text, parent, css) {
+    const added = document.createElement(tag);
+    if (text !== undefined) added.textContent = text;
+    if (css) added.className = css;
+    parent.appendChild(added);
+    return added;
+  }
+  function facts(thing) {
+    const a = thing.about, list = [['Kind', a.kind], ['Type', a.type], ['Origin', a.origin]];
+    if (a.kind === 'room') {
+      list.push(['Width' + (a.origin === 'derived' ? ' (derived)' : ''), metres(a.width) + sigma(a.width_sigma)]);
+      list.push(['Extracted width', a.extracted_width === undefined ? 'not scanned' : metres(a.extracted_width) + sigma(a.extracted_sigma)]);
+      list.push(['Depth', metres(a.depth)]);
+      list.push(['Type is certain to', (100 * a.type_probability).toFixed(0) + ' %']);
+      if (a.rule) list.push(['Rule', (a.rule_path || [a.rule]).join(' › ')]);
+      if (a.scans) list.push(['Scans', a.scans.join(', ')]);
+    }
+    if (a.outline && a.height) list.push(['Height', metres(a.height)], ['Area', areaOf(a.outline).toFixed(2) + ' m²']);
+    if (a.kind === 'wall') list.push(['Between', (a.between || []).join(' and ')], ['Thickness', metres(a.thickness)], ['Length', metres(a.length)]);
+    if (a.kind === 'door' || a.kind === 'window')
+      list.push(['Room', a.room], ['Leads to', a.other], ['Width', metres(a.width)], ['Sill', metres(a.sill)], ['Head', metres(a.head)]);
+    if (a.kind === 'furniture') list.push(['Room', a.room], ['Top', metres(a.top)]);
+    return list.filter((f) => f[1] !== '' && f[1] !== undefined);
+  }
+  let selected = null;
+  function select(thing) {
+    selected = thing && thing.about.outline ? thing : selected;
+    const panel = $('numbers');
+    panel.textContent = '';
+    while (selection.children.length) selection.remove(selection.children[0]);
+    document.querySelectorAll('tbody tr').forEach((row) => row.classList.toggle('on', !!thing && row.dataset.node === thing.node));
+    if (!thing) return draw();
+    element('h2', thing.label + (thing.label === thing.about.id ? '' : ' (' + thing.about.id + ')'), panel);
+    const list = element('dl', undefined, panel);
+    for (const [name, value] of facts(thing)) {
+      element('dt', name, list);
+      element('dd', value, list);
+    }
+    const space = thing.floor && thing.about.space && (thing.floor.about.spaces || []).find((s) => s.id === thing.about.space);
+    if (space && (space.alternatives || []).length) {
+      element('h2', 'Other layouts of this space', panel);
+      for (const other of space.alternatives)
+        element('p', (100 * other.probability).toFixed(1) + ' %: ' + other.types.map((t, i) => t + ' ' + other.widths[i].toFixed(2)).join(', '), panel);
+    }
+    if (thing.about.outline && thing.floor && thing.about.kind !== 'floor') {
+      const base = thing.floor.about.elevation, top = base + (thing.about.height || thing.about.top || 0);
+      for (const height of [base + 0.03, top - 0.02]) {
+        const loop = new THREE.BufferGeometry().setFromPoints(thing.about.outline.map((p) => toScene(p, height)));
+        selection.add(new THREE.LineLoop(loop, new THREE.LineBasicMaterial({ color: 0xd1495b, depthTest: false })));
+      }
+    }
+    draw();
+  }
+  function fillSide() {
+    element('h1', floors.map((f) => f.about.id).join(', ') || document.title, $('title'));
+    const area = rooms.reduce((sum, r) => sum + areaOf(r.about.outline), 0);
+    element('p', rooms.length + ' rooms and hallways, ' + area.toFixed(1) + ' m²; ◦ derived, nobody scanned it', $('title'));
+    const body = $('rooms');
+    for (const room of rooms) {
+      const a = room.about, row = element('tr', undefined, body, a.origin);
+      row.dataset.node = room.node;
+      element('td', a.id, row);
+      element('td', a.type, row);
+      element('td', a.extracted_width === undefined ? '' : a.extracted_width.toFixed(2), row);
+      element('td', a.kind === 'room' ? a.width.toFixed(2) : '', row);
+      element('td', a.kind === 'room' && a.width_sigma ? (100 * a.width_sigma).toFixed(1) : '', row);
+      element('td', areaOf(a.outline).toFixed(1), row);
+      row.onclick = () => {
+        select(room);
+        if (walking) stand(room);
+      };
+    }
+  }
+
+  // ---- picking and walking ----
+  function thingAt(x, y) {
+    const rect = renderer.domElement.getBoundingClientRect(), ray = new THREE.Raycaster();
+    ray.setFromCamera({ x: ((x - rect.left) / rect.width) * 2 - 1, y: 1 - ((y - rect.top) / rect.height) * 2 }, camera);
+    const meshes = [];
+    for (const group of Object.values(layers)) if (group.visible) meshes.push(...group.children);
+    const hit = ray.intersectObjects(meshes)[0];
+    if (!hit) return null;
+    const parts = hit.object.userData.parts;
+    let low = 0, high = parts.length - 1;
+    while (low < high) {
+      const half = (low + high + 1) >> 1;
+      if (parts[half].first <= hit.faceIndex) low = half; else high = half - 1;
+    }
+    return parts[low].thing;
+  }
+  if (renderer) {
+    const canvas = renderer.domElement, keys = new Set();
+    let down = null;
+    canvas.addEventListener('mousedown', (e) => { down = { x: e.clientX, y: e.clientY, lastX: e.clientX, lastY: e.clientY }; });
+    window.addEventListener('mousemove', (e) => {
+      if (!down || !walking) return;
+      yaw += (e.clientX - down.lastX) * 0.004;
+      pitch = Math.max(-1.4, Math.min(1.4, pitch + (e.clientY - down.lastY) * 0.004));
+      down.lastX = e.clientX; down.lastY = e.clientY;
+      look();
+    });
+    window.addEventListener('mouseup', (e) => {
+      if (down && Math.hypot(e.clientX - down.x, e.clientY - down.y) < 4) select(thingAt(e.clientX, e.clientY));
+      down = null;
+    });
+    const moves = { w: [0, -1], arrowup: [0, -1], s: [0, 1], arrowdown: [0, 1], a: [-1, 0], arrowleft: [-1, 0], d: [1, 0], arrowright: [1, 0] };
+    let last = 0;
+    function step(now) {
+      if (!walking || !keys.size) { last = 0; return; }
+      const seconds = last ? Math.min(0.1, (now - last) / 1000) : 0.016;
+      last = now;
+      for (const key of keys) {
+        const [x, z] = moves[key], way = 1.8 * seconds;
+        perspective.position.x += (x * Math.cos(yaw) + z * Math.sin(yaw)) * way;
+        perspective.position.z += (z * Math.cos(yaw) - x * Math.sin(yaw)) * way;
+      }
+      draw();
+      requestAnimationFrame(step);
+    }
+    window.addEventListener('keydown', (e) => {
+      const key = e.key.toLowerCase();
+      if (!moves[key] || !walking) return;
+      e.preventDefault();
+      if (!keys.size) requestAnimationFrame(step);
+      keys.add(key);
+    });
+    window.addEventListener('keyup', (e) => keys.delete(e.key.toLowerCase()));
+    window.addEventListener('blur', () => keys.clear());
+  }
+  document.querySelectorAll('#tools button').forEach((b) => { b.onclick = () => setView(b.dataset.view); });
+  document.querySelectorAll('#tools input').forEach((tick) => {
+    tick.onchange = () => { show(tick.dataset.layer, tick.checked); redrawShadows(); };
+  });
+  window.addEventListener('resize', resize);
+
+  // ---- start: what the address asks for, e.g. #view=inside&room=203 ----
+  fillSide();
+  const wished = state.room && rooms.find((r) => r.about.id === state.room);
+  if (wished) select(wished);
+  setView(['outside', 'bird', 'plan', 'inside', 'drawing'].includes(state.view) ? state.view : 'bird');
+  if (state.click && renderer) {  // a click for the tests: x,y as shares of the view
+    const [x, y] = state.click.split(',').map(Number), rect = renderer.domElement.getBoundingClientRect();
+    select(thingAt(rect.left + x * rect.width, rect.top + y * rect.height));
+  }
+  if (state.measure && renderer) {
+    const pixel = new Uint8Array(4), gl = renderer.getContext(), start = performance.now();
+    for (let i = 0; i < 10; ++i) {
+      perspective.position.x += 0.01;
+      draw();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    }
+    $('frame').textContent = ((performance.now() - start) / 10).toFixed(1) + ' ms a frame, ' + renderer.info.render.calls +
+      ' draw calls, ' + triangles + ' triangles';
+  }
+  document.body.dataset.ready = renderer ? 'yes' : 'no3d';
+})();
