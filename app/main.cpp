@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
       declare_fit,       //
       declare_plan,      //
       declare_export,    //
+      declare_evaluate,  //
+      declare_learn,     //
       declare_perceive,  //
       declare_simulate,  //
       declare_verify,    //

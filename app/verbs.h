@@ -26,6 +26,8 @@ Verb declare_fit(CLI::App& gramap);
 Verb declare_plan(CLI::App& gramap);
 Verb declare_export(CLI::App& gramap);
 Verb declare_perceive(CLI::App& gramap);
+Verb declare_evaluate(CLI::App& gramap);
+Verb declare_learn(CLI::App& gramap);
 Verb declare_simulate(CLI::App& gramap);
 Verb declare_verify(CLI::App& gramap);
 Verb declare_view(CLI::App& gramap);

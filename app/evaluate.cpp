@@ -1,0 +1,129 @@
+#include "floor/evaluate.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/read_known_floors.h"
+#include "app/rules_file.h"
+#include "app/verbs.h"
+#include "floor/cross.h"
+#include "floor/known_rows.h"
+#include "geometry/error.h"
+#include "geometry/file.h"
+#include "grammar/language.h"
+#include "grammar/learn.h"
+
+namespace gramap {
+namespace {
+
+struct EvaluateArguments {
+  std::string model, truth;
+  std::string json, html;
+  std::string cross;
+  std::vector<std::string> rules;
+  double wall_m = 0.2;
+  LearnOptions learning;
+  CrossOptions crossing;
+};
+
+/// The floors of a folder: its floor folders and GeoJSON files, by name.
+KnownFloors floors_in(const std::string& folder, double wall_m) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw InputError({folder}, "this is no folder", "--cross takes a folder that holds several floors");
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::filesystem::path& path = entry.path();
+    const bool floor_folder = std::filesystem::exists(path / "truth.geojson", ignored) ||
+                              std::filesystem::exists(path / "unit.geojson", ignored);
+    if (floor_folder || path.extension() == ".geojson") paths.push_back(path);
+  }
+  std::sort(paths.begin(), paths.end());
+  KnownFloors known;
+  for (const auto& path : paths) read_known_floors(path.string(), wall_m, known);
+  if (known.floors.empty())
+    throw InputError({folder}, "there is no floor in this folder",
+                     "put floor folders with truth.geojson, or GeoJSON files, into it");
+  return known;
+}
+
+RuleSet make_rules(const LearnedRules& learned) {
+  const CheckedRules checked = check_rules(to_text(learned), "learned rules");
+  if (!checked.rules) throw std::logic_error("learned rules that do not pass the check");
+  return *checked.rules;
+}
+
+int cross(const EvaluateArguments& arguments) {
+  const KnownFloors known = floors_in(arguments.cross, arguments.wall_m);
+  const LearnData data = learn_data(known.floors, known.truths);
+  std::printf(
+      "leave one floor out: %zu floors, %d draws, scanned widths %.0f %% and positions %.2f m off%s\n",
+      known.floors.size(), arguments.crossing.draws, 100 * arguments.crossing.width_error,
+      arguments.crossing.place_sigma_m, arguments.crossing.doors ? ", doors seen from the hallways" : "");
+  std::printf("%8s  %-15s %9s %13s %22s %12s %7s\n", "scanned", "rules", "present", "counts right",
+              "unscanned: mean error", "<= 10 cm", "failed");
+  for (const CrossScore& score : cross_validate(data, arguments.learning, make_rules, arguments.crossing))
+    std::printf("%7.0f%%  %-15s %8.1f%% %12.1f%% %20.3f m %11.1f%% %7d\n", 100 * score.share,
+                to_string(score.method), 100 * score.present, 100 * score.spaces_right,
+                score.unscanned_error_m, 100 * score.unscanned_within_10cm, score.failed);
+  std::vector<std::pair<std::string, RuleSet>> others;
+  for (const std::string& path : arguments.rules) others.emplace_back(path, read_rules(path));
+  std::printf("\nlog likelihood of the floor left out, nats per room\n");
+  for (const HeldOutLikelihood& item :
+       held_out_likelihoods(data, arguments.learning, make_rules, others, arguments.crossing.grid_m))
+    std::printf("  %-34s %-28s %9.3f\n", item.floor.c_str(), item.rules.c_str(), item.nats_per_room);
+  return kDone;
+}
+
+int run(const EvaluateArguments& arguments) {
+  if (!arguments.cross.empty()) return cross(arguments);
+  return kUsage;
+}
+
+}  // namespace
+
+Verb declare_evaluate(CLI::App& gramap) {
+  auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* verb =
+      gramap.add_subcommand("evaluate", "Judge a model against the truth, or rules against floors");
+  CLI::Option* cross_option = verb->add_option(
+      "--cross", arguments->cross,
+      "Instead of judging a model: leave each floor of this folder out in turn, learn on the others, fit it");
+  cross_option->required();
+  verb->add_option("--rules", arguments->rules,
+                   "With --cross: rule files whose likelihood is printed beside");
+  verb->add_option("--shares", arguments->crossing.shares, "With --cross: shares of rooms that are scanned")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb->add_option("--draws", arguments->crossing.draws, "With --cross: random choices of rooms per share")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb->add_option("--seed", arguments->crossing.seed, "With --cross: seed of the random choices")
+      ->capture_default_str();
+  verb->add_option("--width-error", arguments->crossing.width_error,
+                   "With --cross: standard deviation of a scanned width, relative")
+      ->check(CLI::Range(0.0001, 0.5))
+      ->capture_default_str();
+  verb->add_option("--place-error", arguments->crossing.place_sigma_m,
+                   "With --cross: standard deviation of a scanned room's position, metres")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  verb->add_option(
+          "--grid", arguments->crossing.grid_m,
+          "With --cross: step of the fit's positions in metres; 0.05 is enough for plans drawn by hand")
+      ->check(CLI::Range(0.005, 0.5))
+      ->capture_default_str();
+  verb->add_flag("--doors", arguments->crossing.doors, "With --cross: the hallways' doors are seen, too");
+  verb->add_option("--wall", arguments->wall_m,
+                   "Thickness in metres of inner walls that a plan draws as lines")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace gramap

@@ -1,0 +1,61 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/read_known_floors.h"
+#include "app/verbs.h"
+#include "floor/known_rows.h"
+#include "geometry/file.h"
+#include "grammar/learn.h"
+
+namespace gramap {
+namespace {
+
+struct LearnArguments {
+  std::vector<std::string> floors;
+  std::string output = "-";
+  double wall_m = 0.2;
+  LearnOptions options;
+};
+
+int learn(const LearnArguments& arguments) {
+  KnownFloors known;
+  for (const std::string& path : arguments.floors) read_known_floors(path, arguments.wall_m, known);
+  const LearnedRules rules = learn_rules(learn_data(known.floors, known.truths), arguments.options);
+  write_file(arguments.output, to_text(rules));
+  std::size_t rooms = 0;
+  for (const KnownRow& row : rules.data.rows) rooms += row.rooms.size();
+  std::fprintf(stderr, "gramap: learned %zu rules for %zu room types from %zu rooms in %zu spaces\n",
+               rules.rules.size(), rules.types.size(), rooms, rules.data.rows.size());
+  return kDone;
+}
+
+}  // namespace
+
+Verb declare_learn(CLI::App& gramap) {
+  auto arguments = std::make_shared<LearnArguments>();
+  CLI::App* verb = gramap.add_subcommand("learn", "Learn a rule file from floors whose rooms are known");
+  verb->add_option(
+          "floors", arguments->floors,
+          "Floor folders with their truth, GeoJSON files that hold it, OpenStreetMap indoor plans, or IMDF "
+          "folders (every level is a floor; FILE#LEVEL takes one)")
+      ->required();
+  verb->add_option("-o,--output", arguments->output, "The rule file to write; - is standard output")
+      ->capture_default_str();
+  verb->add_option("--name", arguments->options.name, "Name of the grammar")->capture_default_str();
+  verb->add_option("--wall", arguments->wall_m,
+                   "Thickness in metres of inner walls that a plan draws as lines")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  verb->add_option("--resolution", arguments->options.resolution_m,
+                   "How exactly the plans are drawn, in metres: no spread is taken to be smaller")
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  verb->add_flag("--uniform", arguments->options.uniform,
+                 "Give all rules of a symbol the same probability: a baseline for comparisons");
+  return [arguments] { return learn(*arguments); };
+}
+
+}  // namespace gramap

@@ -1,0 +1,21 @@
+// Floors whose truth is known, as the verbs `learn` and `evaluate` take them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "floor/ground_truth.h"
+
+namespace gramap {
+
+struct KnownFloors {
+  std::vector<FloorGroundTruth> floors;
+  std::vector<FloorTruth> truths;
+};
+
+/// Reads a floor folder with its truth, a GeoJSON file that holds both, or an indoor plan (every level is a
+/// floor). `wall_m` is the thickness of inner walls that a plan draws as lines. Appends to `known`. Throws
+/// InputError.
+void read_known_floors(const std::string& path, double wall_m, KnownFloors& known);
+
+}  // namespace gramap
