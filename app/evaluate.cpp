@@ -13,6 +13,8 @@
 #include "app/verbs.h"
 #include "floor/cross.h"
 #include "floor/known_rows.h"
+#include "floor/read_indoor.h"
+#include "floor/read_model.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "grammar/language.h"
@@ -80,9 +82,22 @@ int cross(const EvaluateArguments& arguments) {
   return kDone;
 }
 
-int run(const EvaluateArguments& arguments) {
-  if (!arguments.cross.empty()) return cross(arguments);
-  return kUsage;
+int judge(const EvaluateArguments& arguments) {
+  const ReadModel model = read_model(arguments.model);
+  FloorGroundTruth
+      floor;  // known beside the truth: then its reference lines say what is width and what depth
+  std::error_code ignored;
+  const std::filesystem::path truth_path = arguments.truth;
+  if (is_indoor_plan(truth_path) || std::filesystem::exists(truth_path / "floor.geojson", ignored))
+    floor = read_floor(truth_path);
+  const Evaluation evaluation = evaluate(model.floor, read_truth(truth_path, floor.origin), floor);
+  if (!arguments.json.empty()) write_file(arguments.json, to_json(evaluation));
+  if (!arguments.html.empty())
+    write_file(arguments.html,
+               to_html(evaluation, std::filesystem::path(arguments.model).filename().string() + " against " +
+                                       (floor.name.empty() ? arguments.truth : floor.name)));
+  if (arguments.json != "-" && arguments.html != "-") std::fputs(to_text(evaluation).c_str(), stdout);
+  return kDone;
 }
 
 }  // namespace
@@ -91,10 +106,18 @@ Verb declare_evaluate(CLI::App& gramap) {
   auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* verb =
       gramap.add_subcommand("evaluate", "Judge a model against the truth, or rules against floors");
+  CLI::Option* model =
+      verb->add_option("model", arguments->model, "The model (.glb or .gltf) that gramap wrote");
+  CLI::Option* truth = verb->add_option(
+      "truth", arguments->truth, "Floor folder with truth.geojson, or a GeoJSON file with the true rooms");
+  model->needs(truth);
+  verb->add_option("--json", arguments->json, "Write the evaluation as JSON; - is standard output");
+  verb->add_option("--html", arguments->html,
+                   "Write a page with the plan coloured by error; - is standard output");
   CLI::Option* cross_option = verb->add_option(
       "--cross", arguments->cross,
       "Instead of judging a model: leave each floor of this folder out in turn, learn on the others, fit it");
-  cross_option->required();
+  cross_option->excludes(model);
   verb->add_option("--rules", arguments->rules,
                    "With --cross: rule files whose likelihood is printed beside");
   verb->add_option("--shares", arguments->crossing.shares, "With --cross: shares of rooms that are scanned")
@@ -123,7 +146,14 @@ Verb declare_evaluate(CLI::App& gramap) {
                    "Thickness in metres of inner walls that a plan draws as lines")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
-  return [arguments] { return run(*arguments); };
+  return [arguments] {
+    if (!arguments->cross.empty()) return cross(*arguments);
+    if (arguments->model.empty()) {
+      std::fputs("gramap: evaluate needs a model and its truth, or --cross\n", stderr);
+      return static_cast<int>(kUsage);
+    }
+    return judge(*arguments);
+  };
 }
 
 }  // namespace gramap
