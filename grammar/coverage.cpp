@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "grammar/explanation.h"
+#include "grammar/placed_rooms.h"
 
 namespace gramap {
 namespace {
@@ -21,11 +22,6 @@ CellRange covered(const ElementRoom& room, const Grid& grid, int width) {
   const double end = start + room.width.at(clear_m) + grid.wall_m;
   return {std::clamp(static_cast<int>(std::lround(start / grid.step_m)), 0, width),
           std::clamp(static_cast<int>(std::lround(end / grid.step_m)), 0, width)};
-}
-
-bool is_whole(const ElementRoom& room) {
-  return room.start.constant == 0 && room.start.slope == 0 && room.width.constant == 0 &&
-         room.width.slope == 1;
 }
 
 CoverageChannel channel_of(const ElementRoom& room) {

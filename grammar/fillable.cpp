@@ -1,16 +1,26 @@
 #include "grammar/fillable.h"
 
 #include <cmath>
+#include <cstdio>
+#include <string>
 
+#include "geometry/error.h"
 #include "grammar/evidence.h"
 #include "grammar/inference.h"
 #include "grammar/lattice.h"
+#include "grammar/placed_rooms.h"
 
 namespace gramap {
 namespace {
 
 constexpr double kSearchStep_m = 0.05;
 constexpr double kFarthest_m = 10;
+
+std::string metres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f m", value_m);
+  return text;
+}
 
 }  // namespace
 
@@ -37,6 +47,24 @@ std::optional<double> nearest_fillable_m(const RuleSet& rules, const SpaceProble
     }
   }
   return std::nullopt;
+}
+
+void refuse_unfillable(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  std::string names;
+  for (const Rule& rule : rules.rules)
+    if (rule.symbol == 0) names += (names.empty() ? "" : ", ") + rule.name;
+  const std::optional<double> nearest = nearest_fillable_m(rules, problem, options);
+  throw InputError({},
+                   "space " + problem.id + ": no layout of the rules of " + rules.symbols.front() + " (" +
+                       names + ") fills its " + metres(problem.length_m),
+                   nearest ? "the nearest length that they can fill is " + metres(*nearest)
+                           : "they fill no length near it; see `gramap check --lengths`");
+}
+
+void refuse_fault(const RuleSet& rules, const SpaceProblem& problem, const CompiledRow& compiled) {
+  if (compiled.fault)
+    throw InputError({}, "space " + problem.id + ": rule " + rule_name(rules, compiled.fault->rule) + ": " +
+                             compiled.fault->message);
 }
 
 }  // namespace gramap

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "grammar/row.h"
 #include "grammar/space.h"
 
 namespace gramap {
@@ -14,5 +15,11 @@ bool can_fill(const RuleSet& rules, const SpaceProblem& problem, double length_m
 /// away.
 std::optional<double> nearest_fillable_m(const RuleSet& rules, const SpaceProblem& problem,
                                          const FitOptions& options);
+
+/// Throws InputError: no layout fills the space, which rules were tried, and the nearest length that works.
+[[noreturn]] void refuse_unfillable(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options);
+
+/// Throws InputError when the rules could not be turned into a row for this space.
+void refuse_fault(const RuleSet& rules, const SpaceProblem& problem, const CompiledRow& compiled);
 
 }  // namespace gramap

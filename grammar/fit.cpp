@@ -10,9 +10,9 @@
 #include "grammar/fillable.h"
 #include "grammar/inference.h"
 #include "grammar/lattice.h"
+#include "grammar/placed_rooms.h"
 #include "grammar/sequence.h"
 #include "grammar/space.h"
-#include "grammar/trace.h"
 
 namespace gramap {
 namespace {
@@ -43,35 +43,15 @@ void check(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& 
       fail("a door has a position or standard deviation that makes no sense");
 }
 
-[[noreturn]] void refuse(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
-  std::string names;
-  for (const Rule& rule : rules.rules)
-    if (rule.symbol == 0) names += (names.empty() ? "" : ", ") + rule.name;
-  const std::optional<double> nearest = nearest_fillable_m(rules, problem, options);
-  throw InputError({},
-                   "space " + problem.id + ": no layout of the rules of " + rules.symbols.front() + " (" +
-                       names + ") fills its " + metres(problem.length_m),
-                   nearest ? "the nearest length that they can fill is " + metres(*nearest)
-                           : "they fill no length near it; see `gramap check --lengths`");
-}
-
-std::string rule_name(const RuleSet& rules, int rule) {
-  return rule < 0 ? "background" : rules.rules[static_cast<std::size_t>(rule)].name;
-}
-
-/// The rooms of a path. Inside a unit a room's walls follow the unit's: their deviations do, too.
-std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice,
-                                    const SequencePosterior& posterior, const std::vector<double>& starts,
+/// The rooms of a sequence's best layout. Inside a unit a room's walls follow the unit's: their deviations do, too.
+std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice, const SequencePosterior& posterior,
+                                    const std::vector<double>& starts,
                                     const std::vector<std::vector<Explained>>& explained, double length_m) {
-  std::vector<PlacedRoom> placed;
   const std::vector<PathStep>& path = posterior.best;
-  const Grid& grid = lattice.grid();
-  const Trace derivation = trace(rules, lattice, path);
+  std::vector<PlacedRoom> placed = placed_rooms(rules, lattice, path, starts, length_m);
+  std::size_t next = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Element& element = placed_element(lattice, path[i]);
-    const bool is_last = i + 1 == path.size();
-    const double start = starts[i];
-    const double end = is_last ? length_m : starts[i + 1] - grid.wall_m;
     const SequencePosterior::Place& place = posterior.places[i];
     const auto deviation = [&](double slope) {  // of start + slope * width
       const double variance = place.start_sd_m * place.start_sd_m +
@@ -81,27 +61,15 @@ std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice
     };
     for (std::size_t r = 0; r < element.rooms.size(); ++r) {
       const ElementRoom& inner = element.rooms[r];
-      const bool whole = inner.start.constant == 0 && inner.start.slope == 0 && inner.width.constant == 0 &&
-                         inner.width.slope == 1;
-      PlacedRoom room;
-      room.type = inner.type < 0 ? "Unknown" : rules.rooms[static_cast<std::size_t>(inner.type)].name;
-      room.start_m = start + inner.start.at(end - start);
-      room.width_m = whole ? end - start : inner.width.at(end - start);
+      PlacedRoom& room = placed[next++];
       room.width_sigma_m = inner.width.slope * place.width_sd_m;
       room.start_sigma_m = deviation(inner.start.slope);
-      room.end_sigma_m = whole ? place.end_sd_m : deviation(inner.start.slope + inner.width.slope);
-      room.rule = rule_name(rules, inner.rule);
-      for (const int rule : rules_down_to(derivation, derivation.placed_by[i]))
-        room.rule_path.push_back(rule_name(rules, rule));
-      if (room.rule_path.empty() || room.rule_path.back() != room.rule) room.rule_path.push_back(room.rule);
-      room.depth_start_m = inner.depth_start_m;
-      room.depth_m = inner.depth_m;
+      room.end_sigma_m = is_whole(inner) ? place.end_sd_m : deviation(inner.start.slope + inner.width.slope);
       for (const Explained& e : explained[i]) {
         if (e.room != static_cast<int>(r)) continue;
         room.evidence.push_back(lattice.evidence().rooms()[static_cast<std::size_t>(e.evidence)].original);
         if (e.how == Reading::swapped) room.swapped = true;
       }
-      placed.push_back(std::move(room));
     }
   }
   return placed;
@@ -139,15 +107,13 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
   check(rules, problem, options);
   const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, options.grid_m);
   const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
-  if (compiled.fault)
-    throw InputError({}, "space " + problem.id + ": rule " + rule_name(rules, compiled.fault->rule) + ": " +
-                             compiled.fault->message);
+  refuse_fault(rules, problem, compiled);
   const Evidence evidence(rules, problem, options, grid);
   Lattice lattice(compiled.row, grid, evidence);
   lattice.restrict(coarse_mask(rules, problem, options, lattice));
   const NodeTable before = forward(lattice);
   const double total = log_total(lattice, before);
-  if (!std::isfinite(total)) refuse(rules, problem, options);
+  if (!std::isfinite(total)) refuse_unfillable(rules, problem, options);
   const NodeTable behind = backward(lattice, before);
   const std::vector<double> posteriors = node_posteriors(lattice, before, behind);
   const auto sequences = most_probable_sequences(lattice, before, behind, posteriors,
