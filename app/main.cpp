@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
       declare_check,     //
       declare_fit,       //
       declare_plan,      //
+      declare_derive,    //
       declare_export,    //
       declare_evaluate,  //
       declare_learn,     //

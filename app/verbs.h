@@ -24,6 +24,7 @@ using Verb = std::function<int()>;
 Verb declare_check(CLI::App& gramap);
 Verb declare_fit(CLI::App& gramap);
 Verb declare_plan(CLI::App& gramap);
+Verb declare_derive(CLI::App& gramap);
 Verb declare_export(CLI::App& gramap);
 Verb declare_perceive(CLI::App& gramap);
 Verb declare_evaluate(CLI::App& gramap);

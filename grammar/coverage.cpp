@@ -62,12 +62,12 @@ Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable
         for (const Arc& arc : lattice.arcs(state, cell)) departures.add(arc, forward.value[node]);
       }
       departures.take([&](int id, double departing) {
-        const Placement& placement = lattice.row().placements[static_cast<std::size_t>(id)];
-        const auto which = static_cast<std::size_t>(placement.element);
+        const Emission& emission = lattice.row().emissions[static_cast<std::size_t>(id)];
+        const auto which = static_cast<std::size_t>(emission.element);
         const Element& element = lattice.row().elements[which];
-        for (const Move& move : edges.moves(cell, placement.element, e)) {
+        for (const Move& move : edges.moves(cell, emission.element, e)) {
           const double* target =
-              &backward.value[lattice.node(move.first_cell, placement.target, move.target_evidence)];
+              &backward.value[lattice.node(move.first_cell, emission.target, move.target_evidence)];
           double scale_of = std::numeric_limits<double>::quiet_NaN();
           double factor = 0;
           double all = 0;

@@ -37,8 +37,8 @@ struct Choices {
 
 /// Calls visit(arc index, move, i, weight) for the edges of a node, each weighed with all that can follow.
 template <class Visit>
-void for_each_edge(const Lattice& lattice, Edges& edges, const NodeTable& backward, int cell, int state, int e,
-                   Visit visit) {
+void for_each_edge(const Lattice& lattice, Edges& edges, const NodeTable& backward, int cell, int state,
+                   int e, Visit visit) {
   const std::vector<Arc>& arcs = lattice.arcs(state, cell);
   const double here = backward.log_scale[static_cast<std::size_t>(cell)];
   for (std::size_t a = 0; a < arcs.size(); ++a) {
@@ -89,15 +89,22 @@ SpaceDeriver::SpaceDeriver(const RuleSet& rules, const SpaceProblem& space, doub
   model_->forward_sums = forward(model_->lattice);
   FitOptions options;
   options.grid_m = grid_m;
-  if (!std::isfinite(log_total(model_->lattice, model_->forward_sums))) refuse_unfillable(rules, bare, options);
+  if (!std::isfinite(log_total(model_->lattice, model_->forward_sums)))
+    refuse_unfillable(rules, bare, options);
   model_->backward_sums = backward(model_->lattice, model_->forward_sums);
 }
 
 SpaceDeriver::~SpaceDeriver() = default;
 
-const Lattice& SpaceDeriver::lattice() const { return model_->lattice; }
-const NodeTable& SpaceDeriver::forward_sums() const { return model_->forward_sums; }
-const NodeTable& SpaceDeriver::backward_sums() const { return model_->backward_sums; }
+const Lattice& SpaceDeriver::lattice() const {
+  return model_->lattice;
+}
+const NodeTable& SpaceDeriver::forward_sums() const {
+  return model_->forward_sums;
+}
+const NodeTable& SpaceDeriver::backward_sums() const {
+  return model_->backward_sums;
+}
 
 // All samples walk along the line together: those that stand at one node share its choices.
 std::vector<Derivation> SpaceDeriver::draw(int count, std::uint64_t seed) const {
@@ -121,8 +128,8 @@ std::vector<Derivation> SpaceDeriver::draw(int count, std::uint64_t seed) const 
       for_each_edge(lattice, edges, model_->backward_sums, at, static_cast<int>(state), 0,
                     [&](std::size_t arc, const Move& move, int i, double weight) {
                       choices.cumulative.push_back(sum += weight);
-                      choices.steps.push_back({at, move.first_cell + i * move.stride - at, static_cast<int>(state), 0,
-                                               static_cast<int>(arc), 0, -1});
+                      choices.steps.push_back({at, move.first_cell + i * move.stride - at,
+                                               static_cast<int>(state), 0, static_cast<int>(arc), 0, -1});
                       choices.states.push_back(lattice.arcs(static_cast<int>(state), at)[arc].target);
                     });
       for (const std::size_t sample : waiting[cell][state]) {
@@ -162,21 +169,22 @@ DerivationStatistics exact_statistics(const RuleSet& rules, const SpaceDeriver& 
     for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
       if (forward.value[node] * backward.value[node] <= 0) return;
       const std::vector<Arc>& arcs = lattice.arcs(state, cell);
-      for_each_edge(lattice, edges, backward, cell, state, e,
-                    [&](std::size_t arc, const Move& move, int i, double weight) {
-                      const double p = forward.value[node] * weight * scale;
-                      const Element& element = lattice.row().elements[static_cast<std::size_t>(arcs[arc].element)];
-                      const double clear_m = lattice.grid().width_m(move.first_cell + i * move.stride - cell);
-                      for (const DerivationStep& step : arcs[arc].steps)
-                        if (step.rule >= 0) statistics.rules[static_cast<std::size_t>(step.rule)] += p;
-                      for (const ElementRoom& room : element.rooms) {
-                        const std::size_t type = room.type < 0 ? types - 1 : static_cast<std::size_t>(room.type);
-                        const double width = room.width.at(clear_m);
-                        statistics.rooms[type] += p;
-                        statistics.width_mean_m[type] += p * width;
-                        statistics.width_sd_m[type] += p * width * width;
-                      }
-                    });
+      for_each_edge(
+          lattice, edges, backward, cell, state, e,
+          [&](std::size_t arc, const Move& move, int i, double weight) {
+            const double p = forward.value[node] * weight * scale;
+            const Element& element = lattice.row().elements[static_cast<std::size_t>(arcs[arc].element)];
+            const double clear_m = lattice.grid().width_m(move.first_cell + i * move.stride - cell);
+            for (const DerivationStep& step : arcs[arc].steps)
+              if (step.rule >= 0) statistics.rules[static_cast<std::size_t>(step.rule)] += p;
+            for (const ElementRoom& room : element.rooms) {
+              const std::size_t type = room.type < 0 ? types - 1 : static_cast<std::size_t>(room.type);
+              const double width = room.width.at(clear_m);
+              statistics.rooms[type] += p;
+              statistics.width_mean_m[type] += p * width;
+              statistics.width_sd_m[type] += p * width * width;
+            }
+          });
     });
   }
   for (std::size_t type = 0; type < types; ++type) {

@@ -39,8 +39,8 @@ class SpaceDeriver {
 
 /// What the rules promise for a space, exactly: expectations over all its layouts.
 struct DerivationStatistics {
-  double log_probability = 0;        ///< ln of the probability that a derivation fills this length (grid cell)
-  std::vector<double> rooms;         ///< by type, last: background; expected number in a layout
+  double log_probability = 0;  ///< ln of the probability that a derivation fills this length (grid cell)
+  std::vector<double> rooms;   ///< by type, last: background; expected number in a layout
   std::vector<double> width_mean_m;  ///< by type
   std::vector<double> width_sd_m;
   std::vector<double> rules;  ///< expected number of uses in a layout

@@ -17,7 +17,8 @@ std::optional<double> nearest_fillable_m(const RuleSet& rules, const SpaceProble
                                          const FitOptions& options);
 
 /// Throws InputError: no layout fills the space, which rules were tried, and the nearest length that works.
-[[noreturn]] void refuse_unfillable(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options);
+[[noreturn]] void refuse_unfillable(const RuleSet& rules, const SpaceProblem& problem,
+                                    const FitOptions& options);
 
 /// Throws InputError when the rules could not be turned into a row for this space.
 void refuse_fault(const RuleSet& rules, const SpaceProblem& problem, const CompiledRow& compiled);

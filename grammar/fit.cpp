@@ -43,9 +43,10 @@ void check(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& 
       fail("a door has a position or standard deviation that makes no sense");
 }
 
-/// The rooms of a sequence's best layout. Inside a unit a room's walls follow the unit's: their deviations do, too.
-std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice, const SequencePosterior& posterior,
-                                    const std::vector<double>& starts,
+/// The rooms of a sequence's best layout. Inside a unit a room's walls follow the unit's: their deviations
+/// do, too.
+std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice,
+                                    const SequencePosterior& posterior, const std::vector<double>& starts,
                                     const std::vector<std::vector<Explained>>& explained, double length_m) {
   const std::vector<PathStep>& path = posterior.best;
   std::vector<PlacedRoom> placed = placed_rooms(rules, lattice, path, starts, length_m);

@@ -63,7 +63,7 @@ bool has_one_scale(const NodeTable& table, const Move& move, double scale) {
   return table.log_scale[static_cast<std::size_t>(move.last_cell())] == scale;
 }
 
-/// Sum over the edges of an arc's placement of their weights times what comes after.
+/// Sum over the edges of an arc's emission of their weights times what comes after.
 double completion(const Lattice& lattice, Edges& edges, const NodeTable& table, int cell, int evidence_state,
                   const Arc& arc, double scale) {
   double sum = 0;
@@ -111,10 +111,10 @@ NodeTable forward(const Lattice& lattice) {
         for (const Arc& arc : lattice.arcs(state, cell)) departures.add(arc, here);
       }
       departures.take([&](int id, double factor) {
-        const Placement& placement = lattice.row().placements[static_cast<std::size_t>(id)];
-        for (const Move& move : edges.moves(cell, placement.element, e)) {
+        const Emission& emission = lattice.row().emissions[static_cast<std::size_t>(id)];
+        for (const Move& move : edges.moves(cell, emission.element, e)) {
           double* target =
-              &table.value[lattice.node(move.first_cell, placement.target, move.target_evidence)];
+              &table.value[lattice.node(move.first_cell, emission.target, move.target_evidence)];
           if (move.stride == 1)
             for (int i = 0; i < move.count; ++i) target[i] += factor * move.sum[i];
           else
@@ -140,7 +140,7 @@ double log_total(const Lattice& lattice, const NodeTable& forward) {
 NodeTable backward(const Lattice& lattice, const NodeTable& forward) {
   NodeTable table = empty_table(lattice);
   Edges edges(lattice);
-  std::vector<double> completions(lattice.row().placements.size(), 0);
+  std::vector<double> completions(lattice.row().emissions.size(), 0);
   std::vector<bool> known(completions.size(), false);
   const int end = lattice.grid().cells;
   for (int state = 0; state < lattice.states(); ++state)
@@ -156,7 +156,7 @@ NodeTable backward(const Lattice& lattice, const NodeTable& forward) {
         if (forward.value[node] <= 0) continue;
         double sum = 0;
         for (const Arc& arc : lattice.arcs(state, cell)) {
-          const auto id = static_cast<std::size_t>(arc.placement);
+          const auto id = static_cast<std::size_t>(arc.emission);
           if (!known[id]) completions[id] = completion(lattice, edges, table, cell, e, arc, scale);
           known[id] = true;
           sum += arc.probability * completions[id];

@@ -9,28 +9,28 @@
 namespace gramap {
 
 /// Adds up, over the states of a cell and an evidence state, their values times the probabilities of the arcs
-/// to each placement: what the edges of a placement start from. Those that are not zero come in order.
+/// to each emission: what the edges of a emission start from. Those that are not zero come in order.
 class Departures {
  public:
-  explicit Departures(const Lattice& lattice) : values_(lattice.row().placements.size(), 0) {}
+  explicit Departures(const Lattice& lattice) : values_(lattice.row().emissions.size(), 0) {}
 
   void add(const Arc& arc, double value) {
-    double& sum = values_[static_cast<std::size_t>(arc.placement)];
-    if (sum == 0) placements_.push_back(arc.placement);
+    double& sum = values_[static_cast<std::size_t>(arc.emission)];
+    if (sum == 0) emissions_.push_back(arc.emission);
     sum += value * arc.probability;
   }
 
-  /// Calls visit(placement, value) for each, and forgets them.
+  /// Calls visit(emission, value) for each, and forgets them.
   template <class Visit>
   void take(Visit visit) {
-    for (const int placement : placements_)
-      visit(placement, std::exchange(values_[static_cast<std::size_t>(placement)], 0));
-    placements_.clear();
+    for (const int emission : emissions_)
+      visit(emission, std::exchange(values_[static_cast<std::size_t>(emission)], 0));
+    emissions_.clear();
   }
 
  private:
   std::vector<double> values_;
-  std::vector<int> placements_;
+  std::vector<int> emissions_;
 };
 
 /// A value per node; the true one is value x exp(log_scale[cell]), so that no length underflows.

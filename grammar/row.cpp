@@ -313,8 +313,8 @@ class Compiler {
     rest.last_room = last >= 0 && tracked_rooms_[static_cast<std::size_t>(last)] ? last : kUntracked;
     const int target = state_of(rest);
     const auto [place, is_new] =
-        placements_.try_emplace({element, target}, static_cast<int>(row_.placements.size()));
-    if (is_new) row_.placements.push_back({element, target});
+        emissions_.try_emplace({element, target}, static_cast<int>(row_.emissions.size()));
+    if (is_new) row_.emissions.push_back({element, target});
     pending_.push_back({element, target, place->second, probability, steps_});
   }
 
@@ -419,7 +419,7 @@ class Compiler {
   std::vector<Configuration> states_;
   std::map<Configuration, int> state_ids_;
   std::map<std::pair<const Item*, int>, std::vector<std::pair<int, double>>> elements_;
-  std::map<std::pair<int, int>, int> placements_;
+  std::map<std::pair<int, int>, int> emissions_;
   int background_ = -1;
   int current_rule_ = -1;
 

@@ -69,8 +69,8 @@ struct DerivationStep {
   int rule = -1;  ///< for `rewrite`
 };
 
-/// An element placed, and the state after it. Arcs of several states share placements.
-struct Placement {
+/// An element placed, and the state after it. Arcs of several states share emissions.
+struct Emission {
   int element = 0;
   int target = 0;
 };
@@ -79,14 +79,14 @@ struct Placement {
 struct Arc {
   int element = 0;
   int target = 0;
-  int placement = 0;  ///< into Row::placements: element and target
+  int emission = 0;  ///< into Row::emissions: element and target
   double probability = 0;
   std::vector<DerivationStep> steps;
 };
 
 struct Row {
   std::vector<Element> elements;
-  std::vector<Placement> placements;
+  std::vector<Emission> emissions;
   /// Positions with the same class have the same conditions true.
   std::vector<int> position_class;
   std::vector<std::vector<std::vector<Arc>>> arcs;  ///< [state][position class]; state 0 is the start

@@ -118,10 +118,10 @@ class Search {
           for (const Arc& arc : lattice_.arcs(from->state, cell))
             if (looks_[static_cast<std::size_t>(arc.element)] == look) departures_.add(arc, from->sum);
         departures_.take([&](int id, double factor) {
-          const Placement& placement = lattice_.row().placements[static_cast<std::size_t>(id)];
-          for (const Move& move : edges_.moves(cell, placement.element, e)) {
+          const Emission& emission = lattice_.row().emissions[static_cast<std::size_t>(id)];
+          for (const Move& move : edges_.moves(cell, emission.element, e)) {
             double* target =
-                &scratch_[lattice_.node(move.first_cell, placement.target, move.target_evidence)];
+                &scratch_[lattice_.node(move.first_cell, emission.target, move.target_evidence)];
             for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
             first = std::min(first, move.first_cell);
             last = std::max(last, move.last_cell());
