@@ -20,6 +20,32 @@ double way_to_wall(const Vec2& a, const Vec2& b, const std::vector<WallLine>& li
   return share;
 }
 
+/// Far from the scanner rays run apart: gaps between them of up to four pixels are closed (dilation, then erosion).
+void close_gaps(FreeSpace& space) {
+  constexpr int kReach = 2;
+  const auto spread = [&](std::uint8_t value) {
+    for (const bool across : {false, true}) {
+      const int length = across ? space.columns : space.rows, lanes = across ? space.rows : space.columns;
+      const int step = across ? 1 : space.columns, lane_step = across ? space.columns : 1;
+      for (int lane = 0; lane < lanes; ++lane) {
+        std::uint8_t* const at = space.seen.data() + static_cast<std::ptrdiff_t>(lane) * lane_step;
+        int last = -kReach - 1;  // the last pixel that had the value before this pass
+        for (int i = 0; i < length; ++i) {
+          std::uint8_t& pixel = at[static_cast<std::ptrdiff_t>(i) * step];
+          if (pixel == value) {
+            for (int back = std::max(0, i - kReach); back < i; ++back) at[static_cast<std::ptrdiff_t>(back) * step] = value;
+            last = i;
+          } else if (i - last <= kReach) {
+            pixel = value;
+          }
+        }
+      }
+    }
+  };
+  spread(1);
+  spread(0);
+}
+
 }  // namespace
 
 FreeSpace free_space(const RegisteredCloud& cloud, const std::vector<WallLine>& lines, const Storey& storey) {
@@ -42,10 +68,10 @@ FreeSpace free_space(const RegisteredCloud& cloud, const std::vector<WallLine>& 
       high = high.cwiseMax(end);
     }
   }
-  space.pixel_m = std::max(0.05, (high - low).maxCoeff() / 3000);
-  space.corner_m = low - Vec2::Constant(2 * space.pixel_m);
-  space.columns = static_cast<int>((high.x() - low.x()) / space.pixel_m) + 5;
-  space.rows = static_cast<int>((high.y() - low.y()) / space.pixel_m) + 5;
+  space.pixel_m = std::max(0.06, (high - low).maxCoeff() / 3000);
+  space.corner_m = low - Vec2::Constant(5 * space.pixel_m);
+  space.columns = static_cast<int>((high.x() - low.x()) / space.pixel_m) + 11;
+  space.rows = static_cast<int>((high.y() - low.y()) / space.pixel_m) + 11;
   space.seen.assign(static_cast<std::size_t>(space.columns) * static_cast<std::size_t>(space.rows), 0);
   for (const auto& [from, to] : rays) {
     const Vec2 a = (from - space.corner_m) / space.pixel_m, way = (to - from) / space.pixel_m;
@@ -56,6 +82,7 @@ FreeSpace free_space(const RegisteredCloud& cloud, const std::vector<WallLine>& 
                  static_cast<std::size_t>(p.x())] = 1;
     }
   }
+  close_gaps(space);
   return space;
 }
 

@@ -46,7 +46,9 @@ std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulat
     return squared >= min_squared && squared <= max_squared;
   };
   for (; trials < options.max_trials; ++trials) {
-    const std::uint32_t first = static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
+    // Half of the triples start anywhere in the cloud, half anywhere in the room.
+    const std::uint32_t first = trials & 1 ? near.draw_by_place(random)
+                                           : static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
     const Point& p = points[first];
     const Eigen::Vector3f a = points[near.draw(first, random)] - p;
     if (!in_band(a)) continue;
@@ -183,7 +185,12 @@ std::optional<PlanePatch> grow(const std::vector<Point>& points, const std::vect
     if (near.size() < minimum) return std::nullopt;
     patch.normal = plane.normal;
     patch.rho_m = plane.rho_m;
-    keep_largest_patch(patch, points, near, options.patch_cell_m, inside);
+    // A raster finer than the points are dense falls to pieces: coarser until its cells hold several.
+    for (double cell = options.patch_cell_m;; cell *= 1.5) {
+      keep_largest_patch(patch, points, near, cell, inside);
+      const double cells = patch.area_m2 / (patch.cell_m * patch.cell_m);
+      if (cell >= 0.6 || static_cast<double>(inside.size()) >= 2.5 * cells) break;
+    }
     if (inside.size() < minimum || patch.area_m2 < options.min_area_m2) return std::nullopt;
     plane = fit(points, inside);
     if (round > 0) band = trimmed_band(points, inside, plane, options.max_distance_m);

@@ -41,7 +41,7 @@ struct HoughOptions {
 /// A connected planar piece of the cloud: all p with normal · p = rho_m whose place on the raster is
 /// occupied.
 struct PlanePatch {
-  Vec3 normal = Vec3::UnitZ();  ///< unit vector; rho_m is never negative
+  Vec3 normal = Vec3::UnitZ();  ///< unit vector
   double rho_m = 0;
   double rms_m = 0;            ///< of the points' distances from the plane
   double band_m = 0;           ///< points up to this far from it were taken as its own

@@ -58,6 +58,9 @@ Neighbourhood::Neighbourhood(std::vector<Point> points, double edge_m) {
 }
 
 void Neighbourhood::count_around() {
+  filled_.clear();
+  for (std::uint32_t i = 0; i < voxels_.size(); ++i)
+    if (voxels_[i].end > voxels_[i].begin) filled_.push_back(i);
   for (Voxel& voxel : voxels_) {
     voxel.around = 0;
     for (std::uint32_t n = 0; n < voxel.neighbour_count; ++n) {
@@ -76,6 +79,11 @@ std::uint32_t Neighbourhood::draw(std::uint32_t i, Random& random) const {
     if (skip < count) return neighbour.begin + skip;
     skip -= count;
   }
+}
+
+std::uint32_t Neighbourhood::draw_by_place(Random& random) const {
+  const Voxel& voxel = voxels_[filled_[static_cast<std::size_t>(random.below(static_cast<int>(filled_.size())))]];
+  return voxel.begin + static_cast<std::uint32_t>(random.below(static_cast<int>(voxel.end - voxel.begin)));
 }
 
 void Neighbourhood::remove(const std::vector<std::uint8_t>& flagged) {

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "perception/level.h"
 #include "perception/measure.h"
 #include "perception/storey.h"
 
@@ -32,6 +34,12 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
   Stages stages(options);
   found.planes = detect_planes(found.cloud.points_m, options.hough);
   stages.end("planes");
+  const double lean_rad = level(found.cloud, found.planes);
+  if (lean_rad > 0.005) {
+    char text[100];
+    std::snprintf(text, sizeof text, "the scans lean by %.1f degrees; the room is measured upright", lean_rad * 180 / std::numbers::pi);
+    found.observation.remarks.push_back(text);
+  }
   found.storey = find_storey(found.planes, found.cloud, room, options.walls);
   found.walls = wall_lines(found.planes, found.cloud, found.storey, options.walls);
   stages.end("walls");
@@ -73,7 +81,7 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
   seen.floor_z_m = found.storey.floor_z_m + origin.z();
   seen.ceiling_z_m = found.storey.ceiling_z_m + origin.z();
   measure_extent(seen, measured);
-  seen.remarks = found.outline.remarks;
+  seen.remarks.insert(seen.remarks.end(), found.outline.remarks.begin(), found.outline.remarks.end());
   stages.end("measures");
 }
 

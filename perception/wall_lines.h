@@ -39,7 +39,7 @@ struct WallLine {
 };
 
 struct WallOptions {
-  double vertical_epsilon = 0.03;  ///< a plane is vertical when |n_z| is below this, level when 1 − |n_z| is
+  double vertical_epsilon = 0.06;  ///< a plane is vertical when |n_z| is below this, level when 1 − |n_z| is
   double merge_distance_m = 0.06;  ///< a plane that nowhere leaves another by more is the same wall
   double top_band_m = 0.35;        ///< a wall shows up in this band under the ceiling
   double min_length_m = 0.3;       ///< shorter pieces are no walls
