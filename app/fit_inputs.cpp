@@ -82,7 +82,6 @@ FitInputs read_inputs(const FitInputOptions& options) {
     RlsFloor ring = rls_floor(options.rls, options.rls_rules, inputs.rules, options.rls_options);
     inputs.floor = std::move(ring.floor);
     inputs.problems = std::move(ring.problems);
-    inputs.set_aside = std::move(ring.set_aside);
     return inputs;
   }
   inputs.floor = read_floor(options.floor);

@@ -28,7 +28,8 @@ double usual_depth_m(const RuleSet& rules, double otherwise) {
   return count ? sum / count : otherwise;
 }
 
-/// Distance from a segment to the nearest end of a segment across it, on its left; `otherwise` when there is none.
+/// Distance from a segment to the nearest end of a segment across it, on its left; `otherwise` when there is
+/// none.
 double depth_m(const std::vector<RlsSegment>& segments, const RlsSegment& segment, double otherwise) {
   const Vec2 along = (segment.end - segment.start).normalized(), left(-along.y(), along.x());
   double nearest = std::numeric_limits<double>::infinity();
@@ -48,8 +49,8 @@ std::string gap_name(const RlsSegment& segment, std::size_t gap) {
 
 }  // namespace
 
-RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path& rules_csv, const RuleSet& rules,
-                   const RlsOptions& options) {
+RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path& rules_csv,
+                   const RuleSet& rules, const RlsOptions& options) {
   const std::vector<RlsSegment> segments = read_rls(rls, rules_csv);
   const double wall = rules.inner_wall_m, least = narrowest_room_m(rules);
   RlsFloor result;
@@ -59,11 +60,16 @@ RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path
     // The wall lines that bound the space: shared ones replace the segment's own ends.
     double first = segment.shares_first_wall ? segment.walls_m.front() : 0;
     const double last = segment.shares_last_wall ? segment.walls_m.back() : segment.length_m();
-    if (!segment.shares_first_wall && !segment.walls_m.empty() && segment.walls_m.front() > 0 && segment.walls_m.front() - wall < least) {
+    if (!segment.shares_first_wall && !segment.walls_m.empty() && segment.walls_m.front() > 0 &&
+        segment.walls_m.front() - wall < least) {
       first = segment.walls_m.front();
       char text[160];
-      std::snprintf(text, sizeof text, "%.3f m before the first wall are too narrow for any room of the rules; the space begins at that wall", first);
-      result.set_aside.push_back({"rls_" + std::to_string(segment.index), text});
+      std::snprintf(
+          text, sizeof text,
+          "rls_%d: the %.3f m before its first wall are too narrow for any room of the rules; the space "
+          "begins at that wall",
+          segment.index, first);
+      result.floor.remarks.emplace_back(text);
     }
 
     Space space;
@@ -84,7 +90,8 @@ RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path
       if (line > first + 1e-6) lines.push_back(line);
     for (std::size_t gap = 0; gap + 1 < lines.size(); ++gap) {
       // Without a shared or first wall, the space's own start is no wall that anyone has measured.
-      if (gap == 0 && segment.walls_m.front() > first + 1e-6 && segment.walls_m.front() - wall < least) continue;
+      if (gap == 0 && segment.walls_m.front() > first + 1e-6 && segment.walls_m.front() - wall < least)
+        continue;
       const double width = lines[gap + 1] - lines[gap];
       RoomEvidence evidence;
       evidence.id = gap_name(segment, gap);
@@ -92,7 +99,8 @@ RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path
       evidence.width_sigma_m = std::hypot(options.width_sigma_m, options.relative_sigma * width);
       evidence.centre_m = (lines[gap] + lines[gap + 1]) / 2 - first - wall / 2;
       // Errors of the gaps before it add up.
-      evidence.centre_sigma_m = std::hypot(2 * options.width_sigma_m, options.relative_sigma * (lines[gap + 1] - first));
+      evidence.centre_sigma_m =
+          std::hypot(2 * options.width_sigma_m, options.relative_sigma * (lines[gap + 1] - first));
       problem.rooms.push_back(evidence);
     }
     result.problems.push_back(problem);

@@ -1,11 +1,13 @@
-// A floor from the RLS/rules CSV pair alone: every reference line segment becomes a space, every gap between two wall lines
-// an observed room.
+// A floor from the RLS/rules CSV pair alone: every reference line segment becomes a space, every gap between
+// two wall lines an observed room.
 //
 // What the files leave open, and what is taken:
-// - Lengths run between wall lines, taken as the walls' centre lines; a clear width is a gap less one inner wall.
+// - Lengths run between wall lines, taken as the walls' centre lines; a clear width is a gap less one inner
+// wall.
 // - Collinear neighbours meet in the wall that both have seen, which replaces the border of the two segments.
 // - A first gap too narrow for any room of the rules is no room: the space begins at that first wall.
-// - A space's depth is the distance to the nearest end of a segment across it; without one, the rules' room depth.
+// - A space's depth is the distance to the nearest end of a segment across it; without one, the rules' room
+// depth.
 #pragma once
 
 #include <filesystem>
@@ -25,13 +27,13 @@ struct RlsOptions {
 };
 
 struct RlsFloor {
-  FloorGroundTruth floor;                ///< spaces named "rls_<index>", without outline and hallways
-  std::vector<SpaceProblem> problems;    ///< one a space, in order
-  std::vector<SetAsideInput> set_aside;  ///< gaps that are no rooms
+  FloorGroundTruth floor;  ///< spaces named "rls_<index>", without outline and hallways; its remarks say
+                           ///< which gaps are no rooms
+  std::vector<SpaceProblem> problems;  ///< one a space, in order
 };
 
 /// Throws InputError for what is wrong with the files.
-RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path& rules_csv, const RuleSet& rules,
-                   const RlsOptions& options = {});
+RlsFloor rls_floor(const std::filesystem::path& rls, const std::filesystem::path& rules_csv,
+                   const RuleSet& rules, const RlsOptions& options = {});
 
 }  // namespace gramap

@@ -72,6 +72,7 @@ std::string room_table(const FittedFloor& floor) {
             format("%.3f m", std::max(0, rooms - 1) * floor.inner_wall_m) + " = " +
             format("%.3f m", space.length_m) + "\n";
   }
+  for (const std::string& remark : floor.floor.remarks) text += "note: " + remark + "\n";
   for (const SetAsideInput& aside : floor.set_aside)
     text += "set aside: " + aside.what + ": " + aside.reason + "\n";
   return text;
