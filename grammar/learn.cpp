@@ -58,14 +58,14 @@ void write_by_axis(WidthClass& width, const LearnedRules& rules) {
   width.mean_m = axes * rules.axis_m - rules.data.inner_wall_m + width.offset_m;
 }
 
-/// Spread of a class for the file: with few rooms the data's own spread says little, so two rooms' worth of
-/// the resolution are mixed in.
+/// Spread of a class for the file, whole centimetres: with few rooms the data's own spread says little, so
+/// two rooms' worth of the resolution are mixed in, and it is never below that.
 double honest_sd(const std::vector<double>& values, const LengthGroup& group, double mean,
                  double resolution_m) {
   double squares = 2 * resolution_m * resolution_m;
   for (const int i : group.members) squares += std::pow(values[at(i)] - mean, 2);
   const double sd = std::sqrt(squares / (static_cast<double>(group.members.size()) + 2));
-  return std::max(0.01, std::round(sd * 100) / 100);
+  return std::max(0.01, std::round(std::max(sd, resolution_m) * 100) / 100);
 }
 
 void find_structural_axis(LearnedRules& rules) {
@@ -170,7 +170,7 @@ std::vector<std::vector<int>> classify(LearnedRules& rules) {
 }
 
 /// What a room's `width` says: the widths seen, and for a type that comes in several numbers of axes every
-/// number up to one more than seen, with the cuts that were seen; half a room's weight for all that was not.
+/// number up to one more than seen, with the cuts that were seen; one room's weight for all that was not.
 void generalise_widths(LearnedRules& rules) {
   for (std::size_t t = 0; t < rules.types.size(); ++t) {
     LearnedType& type = rules.types[t];
@@ -202,7 +202,7 @@ void generalise_widths(LearnedRules& rules) {
         if (width.mean_m > 0.5) unseen.push_back(width);
       }
     for (WidthClass& width : unseen) {
-      width.count = static_cast<int>(500.0 / static_cast<double>(unseen.size()) + 1);
+      width.count = static_cast<int>(1000.0 / static_cast<double>(unseen.size()) + 1);
       type.widths.push_back(width);
     }
     std::stable_sort(type.widths.begin(), type.widths.end(),
@@ -282,22 +282,22 @@ void share_out(LearnedRules& rules, const std::vector<ClassPlaces>& places, bool
   const double unseen = seen == 0 ? 1 : 0.5 * seen / (n + 0.5 * seen);
   for (LearnedRule& rule : rules.rules) {
     if (rule.first != first) continue;
-    rule.probability = rule.any_type < 0 ? (1 - unseen) * rule.count / n
-                                         : 0.9 * unseen * stood[at(rule.any_type)] / rooms;
+    rule.probability =
+        rule.any_type < 0 ? (1 - unseen) * rule.count / n : 0.9 * unseen * stood[at(rule.any_type)] / rooms;
   }
   if (!first) rules.background = std::clamp(0.1 * unseen, 0.001, 0.05);
 }
 
-/// What a rule leaves behind for the next one to look at: the type and size of its last room. First rooms count
-/// with their like, though an outer wall cuts into them.
+/// What a rule leaves behind for the next one to look at: the type and size of its last room. First rooms
+/// count with their like, though an outer wall cuts into them.
 std::pair<int, long> kind_of(const LearnedRules& rules, const LearnedRule& rule) {
   if (rule.any_type >= 0) return {-1, rule.any_type};
   const WidthClass& width = rules.classes[at(rule.classes.back())];
   return {width.type, width.axes > 0 ? width.axes : std::lround(-100 * width.mean_m)};
 }
 
-/// For every kind of rule whose followers differ from all rules' followers: a block of its own, mixed with one
-/// count of the overall shares.
+/// For every kind of rule whose followers differ from all rules' followers: a block of its own, mixed with
+/// one count of the overall shares.
 void learn_after(LearnedRules& rules, const std::vector<std::vector<int>>& derivations) {
   std::vector<std::vector<double>> counts(rules.rules.size(), std::vector<double>(rules.rules.size(), 0));
   for (const auto& derivation : derivations)

@@ -44,10 +44,20 @@ PlaceModel describe_places(const std::vector<Offset>& offsets, bool side_is_free
   return model;
 }
 
+/// Places that were seen once are no habit: they, and half a door for every place seen, go to one wide place,
+/// so that a door elsewhere is unusual and not impossible. `free_m`: mean length of wall beside the door.
+void leave_room(double doors, double free_m, double widest_m, std::vector<LearnedDoor::Place>& places) {
+  const double seen = static_cast<double>(places.size());
+  if (doors > 2) std::erase_if(places, [&](const auto& place) { return place.share * doors < 1.5; });
+  double total = 0;
+  for (LearnedDoor::Place& place : places) total += place.share *= doors / (doors + seen / 2);
+  places.push_back({1 - total, free_m / 2, std::max(0.3, widest_m / 2), false});
+}
+
 std::optional<LearnedDoor> learn_door(const std::vector<const KnownRoom*>& rooms) {
   std::vector<double> widths, heights;
   std::vector<Offset> from_start, from_end, nearer;
-  double with_door = 0, known = 0, anywhere = 0;
+  double with_door = 0, known = 0, anywhere = 0, widest_m = 0, free_m = 0;
   for (const KnownRoom* room : rooms) {
     known += room->doors_known;
     with_door += !room->doors.empty();
@@ -59,6 +69,8 @@ std::optional<LearnedDoor> learn_door(const std::vector<const KnownRoom*>& rooms
       from_end.push_back({end, true});
       nearer.push_back(end < start ? Offset{end, true} : Offset{start, false});
       anywhere += std::log(std::max(0.1, start + end));
+      widest_m = std::max(widest_m, start + end);
+      free_m += start + end;
     }
   }
   if (widths.empty() || with_door < known / 2) return std::nullopt;
@@ -73,6 +85,9 @@ std::optional<LearnedDoor> learn_door(const std::vector<const KnownRoom*>& rooms
     least = model.length;
     door.places = model.places;
   }
+  if (!door.places.empty())
+    leave_room(static_cast<double>(widths.size()), free_m / static_cast<double>(widths.size()), widest_m,
+               door.places);
   return door;
 }
 

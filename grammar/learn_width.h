@@ -16,8 +16,8 @@ struct LengthGroup {
 /// The best grouping of the values: contiguous groups that maximise the classification likelihood of a
 /// mixture of normals, the number of groups chosen by the Bayesian information criterion (three parameters a
 /// group). Exact, by dynamic programming (Fisher, "On grouping for maximum homogeneity", 1958). No group's
-/// spread is taken to be below `resolution_m`, no group has fewer than `least_members` (unless there are fewer
-/// values in all). Groups come in ascending order.
+/// spread is taken to be below `resolution_m`, no group has fewer than `least_members` (unless there are
+/// fewer values in all). Groups come in ascending order.
 std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, double resolution_m,
                                        int most_groups = 8, int least_members = 1);
 
