@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   const std::vector<Verb (*)(CLI::App&)> verbs = {
       declare_check,     //
       declare_fit,       //
+      declare_fmt,       //
       declare_plan,      //
       declare_derive,    //
       declare_export,    //

@@ -23,6 +23,7 @@ enum ExitCode {
 using Verb = std::function<int()>;
 Verb declare_check(CLI::App& gramap);
 Verb declare_fit(CLI::App& gramap);
+Verb declare_fmt(CLI::App& gramap);
 Verb declare_plan(CLI::App& gramap);
 Verb declare_derive(CLI::App& gramap);
 Verb declare_export(CLI::App& gramap);
