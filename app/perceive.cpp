@@ -123,8 +123,9 @@ Verb declare_perceive(CLI::App& gramap) {
       ->capture_default_str();
   verb->add_option("--seed", options->perception.hough.seed, "Seed of the random triples")
       ->capture_default_str();
-  verb->add_option("--debug", options->debug,
-                   "Folder for what each stage saw: planes.ply, planes.txt, plan.svg (for several rooms, a folder each)");
+  verb->add_option(
+      "--debug", options->debug,
+      "Folder for what each stage saw: planes.ply, planes.txt, plan.svg (for several rooms, a folder each)");
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
   return [options] { return run(*options); };
 }

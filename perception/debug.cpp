@@ -39,10 +39,12 @@ std::array<std::uint8_t, 3> colour(std::size_t number) {
 
 std::string ply_of(const Perception& found) {
   const std::vector<Point>& points = found.cloud.points_m;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kPlyPoints), count = (points.size() + step - 1) / step;
-  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
-                     "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
-                     "property uchar blue\nend_header\n";
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kPlyPoints),
+                    count = (points.size() + step - 1) / step;
+  std::string text =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+      "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nend_header\n";
   for (std::size_t i = 0; i < points.size(); i += step) {
     const Vec3 p = points[i].cast<double>();
     std::array<std::uint8_t, 3> rgb = {120, 120, 120};
@@ -75,15 +77,18 @@ std::string list_of(const Perception& found) {
       for (std::size_t w = 0; w < found.walls.size(); ++w) {
         const WallLine& wall = found.walls[w];
         const Vec3 middle = plane.corner + plane.u * (plane.columns * plane.cell_m / 2);
-        if (std::abs(wall.normal.dot(plane.normal.head<2>())) > 0.98 && std::abs(wall.distance(middle.head<2>())) < 0.1) {
-          const bool used = std::count(found.outline.lines.begin(), found.outline.lines.end(), static_cast<int>(w)) > 0;
+        if (std::abs(wall.normal.dot(plane.normal.head<2>())) > 0.98 &&
+            std::abs(wall.distance(middle.head<2>())) < 0.1) {
+          const bool used =
+              std::count(found.outline.lines.begin(), found.outline.lines.end(), static_cast<int>(w)) > 0;
           fate = "wall line " + std::to_string(w) + (used ? ", in the outline" : ", not in the outline");
           break;
         }
       }
     }
-    print(text, "%5zu  %7.4f %7.4f %7.4f  %8.3f  %6.1f  %8zu  %7.2f  %s\n", k, plane.normal.x(), plane.normal.y(),
-          plane.normal.z(), plane.rho_m, plane.rms_m * 1e3, plane.support, plane.area_m2, fate.c_str());
+    print(text, "%5zu  %7.4f %7.4f %7.4f  %8.3f  %6.1f  %8zu  %7.2f  %s\n", k, plane.normal.x(),
+          plane.normal.y(), plane.normal.z(), plane.rho_m, plane.rms_m * 1e3, plane.support, plane.area_m2,
+          fate.c_str());
   }
   return text;
 }
@@ -100,18 +105,23 @@ std::string svg_of(const Perception& found) {
   const double scale = 1100 / std::max({(high - low).x(), (high - low).y(), 1.0});
   const auto at = [&](const Vec2& p) { return Vec2((p.x() - low.x()) * scale, (high.y() - p.y()) * scale); };
   std::string text;
-  print(text, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+  print(text,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\">\n<rect width=\"100%%\" "
+        "height=\"100%%\" fill=\"white\"/>\n",
         (high - low).x() * scale, (high - low).y() * scale);
   text += "<path fill=\"#dff0df\" d=\"";
   for (int row = 0; row < free.rows; ++row)
     for (int column = 0; column < free.columns; ++column) {
-      const auto seen = [&](int c) { return free.seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(free.columns) + static_cast<std::size_t>(c)] != 0; };
+      const auto seen = [&](int c) {
+        return free.seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(free.columns) +
+                         static_cast<std::size_t>(c)] != 0;
+      };
       if (!seen(column)) continue;
       const int first = column;
       while (column + 1 < free.columns && seen(column + 1)) ++column;
       const Vec2 p = at(free.corner_m + free.pixel_m * Vec2(first, row + 1));
-      print(text, "M%.1f %.1fh%.1fv%.2fh-%.1fz", p.x(), p.y(), (column + 1 - first) * free.pixel_m * scale, free.pixel_m * scale,
-            (column + 1 - first) * free.pixel_m * scale);
+      print(text, "M%.1f %.1fh%.1fv%.2fh-%.1fz", p.x(), p.y(), (column + 1 - first) * free.pixel_m * scale,
+            free.pixel_m * scale, (column + 1 - first) * free.pixel_m * scale);
     }
   text += "\"/>\n<path stroke=\"#888\" stroke-width=\"1\" d=\"";
   const std::size_t step = std::max<std::size_t>(1, found.cloud.points_m.size() / kSvgPoints);
@@ -124,10 +134,14 @@ std::string svg_of(const Perception& found) {
   text += "\"/>\n";
   for (std::size_t k = 0; k < found.walls.size(); ++k) {
     const WallLine& wall = found.walls[k];
-    const auto on_line = [&](double along) { return at(wall.normal * wall.rho_m + wall.direction() * along); };
+    const auto on_line = [&](double along) {
+      return at(wall.normal * wall.rho_m + wall.direction() * along);
+    };
     const double reach = (high - low).norm(), middle = wall.direction().dot((low + high) / 2);
     const Vec2 a = on_line(middle - reach), b = on_line(middle + reach);
-    print(text, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#ccd\" stroke-width=\"0.5\"/>\n", a.x(), a.y(), b.x(), b.y());
+    print(text,
+          "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#ccd\" stroke-width=\"0.5\"/>\n",
+          a.x(), a.y(), b.x(), b.y());
     const std::array<std::uint8_t, 3> c = colour(k);
     for (std::size_t column = 0; column < wall.wall.size(); ++column) {
       if (!wall.wall[column]) continue;
@@ -135,7 +149,9 @@ std::string svg_of(const Perception& found) {
       while (column + 1 < wall.wall.size() && wall.wall[column + 1]) ++column;
       const Vec2 p = on_line(wall.start_m + static_cast<double>(first) * wall.column_m);
       const Vec2 q = on_line(wall.start_m + static_cast<double>(column + 1) * wall.column_m);
-      print(text, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#%02x%02x%02x\" stroke-width=\"4\" stroke-opacity=\"0.6\"/>\n",
+      print(text,
+            "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#%02x%02x%02x\" "
+            "stroke-width=\"4\" stroke-opacity=\"0.6\"/>\n",
             p.x(), p.y(), q.x(), q.y(), c[0], c[1], c[2]);
     }
   }

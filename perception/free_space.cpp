@@ -20,7 +20,8 @@ double way_to_wall(const Vec2& a, const Vec2& b, const std::vector<WallLine>& li
   return share;
 }
 
-/// Far from the scanner rays run apart: gaps between them of up to four pixels are closed (dilation, then erosion).
+/// Far from the scanner rays run apart: gaps between them of up to four pixels are closed (dilation, then
+/// erosion).
 void close_gaps(FreeSpace& space) {
   constexpr int kReach = 2;
   const auto spread = [&](std::uint8_t value) {
@@ -33,7 +34,8 @@ void close_gaps(FreeSpace& space) {
         for (int i = 0; i < length; ++i) {
           std::uint8_t& pixel = at[static_cast<std::ptrdiff_t>(i) * step];
           if (pixel == value) {
-            for (int back = std::max(0, i - kReach); back < i; ++back) at[static_cast<std::ptrdiff_t>(back) * step] = value;
+            for (int back = std::max(0, i - kReach); back < i; ++back)
+              at[static_cast<std::ptrdiff_t>(back) * step] = value;
             last = i;
           } else if (i - last <= kReach) {
             pixel = value;

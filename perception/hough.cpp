@@ -47,8 +47,9 @@ std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulat
   };
   for (; trials < options.max_trials; ++trials) {
     // Half of the triples start anywhere in the cloud, half anywhere in the room.
-    const std::uint32_t first = trials & 1 ? near.draw_by_place(random)
-                                           : static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
+    const std::uint32_t first =
+        trials & 1 ? near.draw_by_place(random)
+                   : static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
     const Point& p = points[first];
     const Eigen::Vector3f a = points[near.draw(first, random)] - p;
     if (!in_band(a)) continue;
@@ -171,18 +172,23 @@ double trimmed_band(const std::vector<Point>& points, const std::vector<std::uin
   return std::clamp(3 * 1.4826 * *middle, 0.01, limit);
 }
 
-/// Grows a candidate into a plane; nothing when it is too small or does not stand out from the points around
-/// it.
-std::optional<PlanePatch> grow(const std::vector<Point>& points, const std::vector<Point>& all,
-                               const Candidate& candidate, const HoughOptions& options) {
+/// What became of a candidate.
+enum class Grown {
+  kPlane,
+  kTooSmall,
+  kRim,  ///< it does not stand out from the points around it: the rim of another plane's noise, or clutter
+};
+
+/// Grows a candidate into a plane patch.
+Grown grow(const std::vector<Point>& points, const std::vector<Point>& all, const Candidate& candidate,
+           const std::vector<PlanePatch>& known, const HoughOptions& options, PlanePatch& patch) {
   FittedPlane plane{candidate.normal.cast<double>().normalized(), candidate.rho, 0};
-  PlanePatch patch;
   std::vector<std::uint32_t> near, inside;
   double band = options.max_distance_m;
   const auto minimum = static_cast<std::size_t>(options.min_support);
   for (int round = 0; round < 4; ++round) {
     collect(points, plane, band, near);
-    if (near.size() < minimum) return std::nullopt;
+    if (near.size() < minimum) return Grown::kTooSmall;
     patch.normal = plane.normal;
     patch.rho_m = plane.rho_m;
     // A raster finer than the points are dense falls to pieces: coarser until its cells hold several.
@@ -191,7 +197,7 @@ std::optional<PlanePatch> grow(const std::vector<Point>& points, const std::vect
       const double cells = patch.area_m2 / (patch.cell_m * patch.cell_m);
       if (cell >= 0.6 || static_cast<double>(inside.size()) >= 2.5 * cells) break;
     }
-    if (inside.size() < minimum || patch.area_m2 < options.min_area_m2) return std::nullopt;
+    if (inside.size() < minimum || patch.area_m2 < options.min_area_m2) return Grown::kTooSmall;
     plane = fit(points, inside);
     if (round > 0) band = trimmed_band(points, inside, plane, options.max_distance_m);
   }
@@ -200,16 +206,21 @@ std::optional<PlanePatch> grow(const std::vector<Point>& points, const std::vect
   patch.rms_m = plane.rms_m;
   patch.band_m = band;
   patch.support = inside.size();
-  // A plane stands out: as much space beside it holds far fewer points, those of planes found before
-  // included, or it is only the rim of such a plane's noise.
+  // A plane stands out: as much space beside it holds far fewer points, those of parallel planes found before
+  // included. Planes that stand across it say nothing: every narrow face has them at its edges.
+  const auto across = [&](const Vec3& p) {
+    return std::any_of(known.begin(), known.end(), [&](const PlanePatch& other) {
+      return std::abs(other.normal.dot(patch.normal)) < 0.9 &&
+             std::abs(other.distance(p)) <= 1.5 * other.band_m && other.covers(p);
+    });
+  };
   std::size_t beside = 0;
   for (const Point& point : all) {
     const Vec3 p = point.cast<double>();
     const double distance = std::abs(patch.distance(p));
-    if (distance > 1.5 * band && distance <= 3.5 * band && patch.covers(p)) ++beside;
+    if (distance > 1.5 * band && distance <= 3.5 * band && patch.covers(p) && !across(p)) ++beside;
   }
-  if (static_cast<double>(beside) > 0.8 * static_cast<double>(inside.size())) return std::nullopt;
-  return patch;
+  return static_cast<double>(beside) > 0.8 * static_cast<double>(inside.size()) ? Grown::kRim : Grown::kPlane;
 }
 
 }  // namespace
@@ -234,21 +245,25 @@ std::vector<PlanePatch> detect_planes(std::span<const Point> points, const Hough
          near.points().size() >= static_cast<std::size_t>(options.min_support)) {
     const std::optional<Candidate> candidate = draw_candidate(near, votes, random, options, trials);
     if (!candidate) break;
-    const std::optional<PlanePatch> patch = grow(near.points(), all, *candidate, options);
-    if (!patch) {
+    PlanePatch patch;
+    const Grown grown = grow(near.points(), all, *candidate, patches, options, patch);
+    if (grown == Grown::kTooSmall) {
       if (++refusals == options.max_refusals) break;
       continue;
     }
-    trials = refusals = 0;
+    // A rim's points are taken out like a plane's: they would only be drawn again.
     taken.assign(near.points().size(), 0);
-    const double reach = std::max(1.5 * patch->band_m, 0.03);
+    const double reach = std::max(1.5 * patch.band_m, 0.03);
     for (std::size_t i = 0; i < taken.size(); ++i) {
       const Vec3 p = near.points()[i].cast<double>();
-      taken[i] = std::abs(patch->distance(p)) <= reach && patch->covers(p);
+      taken[i] =
+          std::abs(patch.distance(p)) <= (grown == Grown::kRim ? patch.band_m : reach) && patch.covers(p);
     }
     near.remove(taken);
     votes.clear();
-    patches.push_back(*patch);
+    if (grown == Grown::kRim) continue;
+    trials = refusals = 0;
+    patches.push_back(patch);
   }
 
   refit_planes(patches, points, centre);

@@ -22,7 +22,8 @@ double level(RegisteredCloud& cloud, std::vector<PlanePatch>& planes) {
   if (angle < 0.001 || angle > 0.09) return 0;
   const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitZ()).toRotationMatrix();
   Vec3 middle = Vec3::Zero();
-  for (const RegisteredCloud::Part& part : cloud.parts) middle += part.scanner_m / static_cast<double>(cloud.parts.size());
+  for (const RegisteredCloud::Part& part : cloud.parts)
+    middle += part.scanner_m / static_cast<double>(cloud.parts.size());
   const Vec3 shift = middle - turn * middle;
   const Eigen::Matrix3f turn_f = turn.cast<float>();
   const Point shift_f = shift.cast<float>();

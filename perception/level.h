@@ -7,8 +7,9 @@
 
 namespace gramap {
 
-/// Turns cloud and planes so that floor and ceiling lie as level and walls stand as upright as they can, by the smallest
-/// turn about the middle of the scanners. Only leanings of up to about 5° are noticed. Returns the angle in radians.
+/// Turns cloud and planes so that floor and ceiling lie as level and walls stand as upright as they can, by
+/// the smallest turn about the middle of the scanners. Only leanings of up to about 5° are noticed. Returns
+/// the angle in radians.
 double level(RegisteredCloud& cloud, std::vector<PlanePatch>& planes);
 
 }  // namespace gramap

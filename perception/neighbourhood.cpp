@@ -82,7 +82,8 @@ std::uint32_t Neighbourhood::draw(std::uint32_t i, Random& random) const {
 }
 
 std::uint32_t Neighbourhood::draw_by_place(Random& random) const {
-  const Voxel& voxel = voxels_[filled_[static_cast<std::size_t>(random.below(static_cast<int>(filled_.size())))]];
+  const Voxel& voxel =
+      voxels_[filled_[static_cast<std::size_t>(random.below(static_cast<int>(filled_.size())))]];
   return voxel.begin + static_cast<std::uint32_t>(random.below(static_cast<int>(voxel.end - voxel.begin)));
 }
 

@@ -18,8 +18,8 @@ class Neighbourhood {
   const std::vector<Point>& points() const { return points_; }
   /// A point at random from the neighbourhood of point `i`, itself included.
   std::uint32_t draw(std::uint32_t i, Random& random) const;
-  /// A point at random, every voxel that has points being as likely as any other: sparse places, far from the scanner, get
-  /// their turn like dense ones.
+  /// A point at random, every voxel that has points being as likely as any other: sparse places, far from the
+  /// scanner, get their turn like dense ones.
   std::uint32_t draw_by_place(Random& random) const;
   /// Takes out the points whose flag is set; flags are in the order of points().
   void remove(const std::vector<std::uint8_t>& flagged);

@@ -70,8 +70,10 @@ Header read_header(LineReader& lines) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const std::uint64_t size = whole_number(lines, sizes[i]);
     const char kind = kinds[i][0] == 'F' ? 'f' : kinds[i][0] == 'I' ? 'i' : kinds[i][0] == 'U' ? 'u' : 0;
-    if (!kind || (size != 1 && size != 2 && size != 4 && size != 8) || (kind == 'f' && size < 4) || header.counts[i] > 65536)
-      fail(lines, "a field of type " + kinds[i].substr(0, 8) + " and size " + sizes[i].substr(0, 8) + " is not known");
+    if (!kind || (size != 1 && size != 2 && size != 4 && size != 8) || (kind == 'f' && size < 4) ||
+        header.counts[i] > 65536)
+      fail(lines, "a field of type " + kinds[i].substr(0, 8) + " and size " + sizes[i].substr(0, 8) +
+                      " is not known");
     header.types.push_back({kind, static_cast<std::size_t>(size)});
   }
   return header;
@@ -99,7 +101,8 @@ bool unpack_lzf(const std::vector<std::uint8_t>& in, std::vector<char>& out) {
     if (from >= in.size()) return false;
     const std::size_t back = ((control & 31) << 8) + in[from++] + 1;
     if (back > to || to + length > out.size()) return false;
-    for (std::size_t i = 0; i < length; ++i, ++to) out[to] = out[to - back];  // may overlap itself: byte by byte
+    for (std::size_t i = 0; i < length; ++i, ++to)
+      out[to] = out[to - back];  // may overlap itself: byte by byte
   }
   return to == out.size();
 }
@@ -129,9 +132,10 @@ std::vector<Point> read_pcd(const std::filesystem::path& path) {
 
   std::vector<Point> points;
   const auto cut_short = [&](std::uint64_t count) {
-    throw InputError({path.string()},
-                     "the file ends after " + std::to_string(count) + " of " + std::to_string(header.points) + " points",
-                     "the file was cut short; copy it again");
+    throw InputError(
+        {path.string()},
+        "the file ends after " + std::to_string(count) + " of " + std::to_string(header.points) + " points",
+        "the file was cut short; copy it again");
   };
   if (header.data == "ascii") {
     std::string line;
@@ -162,7 +166,8 @@ std::vector<Point> read_pcd(const std::filesystem::path& path) {
     if (lines.bytes(sizes, 8) < 8) cut_short(0);
     const auto packed = static_cast<std::size_t>(number_at(sizes, {'u', 4}, false));
     const auto unpacked = static_cast<std::size_t>(number_at(sizes + 4, {'u', 4}, false));
-    if (unpacked != header.points * record) fail(lines, "the size of the compressed data contradicts the header");
+    if (unpacked != header.points * record)
+      fail(lines, "the size of the compressed data contradicts the header");
     // Bytes are taken as they come, so that a wrong size cannot ask for more memory than there is data.
     std::vector<std::uint8_t> in;
     char piece[1 << 16];
@@ -184,7 +189,8 @@ std::vector<Point> read_pcd(const std::filesystem::path& path) {
       keep_finite(points, point);
     }
   } else {
-    fail(lines, "expected the data to be ascii, binary or binary_compressed, found '" + header.data.substr(0, 40) + "'");
+    fail(lines, "expected the data to be ascii, binary or binary_compressed, found '" +
+                    header.data.substr(0, 40) + "'");
   }
   return points;
 }

@@ -8,6 +8,7 @@
 
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "perception/hidden_walls.h"
 #include "perception/level.h"
 #include "perception/measure.h"
 #include "perception/storey.h"
@@ -37,10 +38,14 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
   const double lean_rad = level(found.cloud, found.planes);
   if (lean_rad > 0.005) {
     char text[100];
-    std::snprintf(text, sizeof text, "the scans lean by %.1f degrees; the room is measured upright", lean_rad * 180 / std::numbers::pi);
+    std::snprintf(text, sizeof text, "the scans lean by %.1f degrees; the room is measured upright",
+                  lean_rad * 180 / std::numbers::pi);
     found.observation.remarks.push_back(text);
   }
   found.storey = find_storey(found.planes, found.cloud, room, options.walls);
+  for (PlanePatch& plane :
+       find_hidden_walls(found.planes, found.cloud, found.storey, options.walls, options.hough))
+    found.planes.push_back(std::move(plane));
   found.walls = wall_lines(found.planes, found.cloud, found.storey, options.walls);
   stages.end("walls");
   found.free = free_space(found.cloud, found.walls, found.storey);
@@ -87,7 +92,8 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
 
 }  // namespace
 
-Perception perceive_structure(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options) {
+Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
+                              const PerceptionOptions& options) {
   Perception found;
   found.cloud = std::move(cloud);
   try {

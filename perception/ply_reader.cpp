@@ -57,7 +57,8 @@ Header read_header(LineReader& lines) {
       header.is_text = words[1] == "ascii";
       header.big_endian = words[1] == "binary_big_endian";
       if (!header.is_text && !header.big_endian && words[1] != "binary_little_endian")
-        fail("expected the format ascii, binary_little_endian or binary_big_endian, found '" + words[1] + "'");
+        fail("expected the format ascii, binary_little_endian or binary_big_endian, found '" + words[1] +
+             "'");
     } else if (words[0] == "element" && words.size() == 3) {
       Element element;
       element.name = words[1];
@@ -95,9 +96,10 @@ void read_text(LineReader& lines, const Element& vertices, std::vector<Point>& p
   std::string line;
   for (std::uint64_t i = 0; i < vertices.count; ++i) {
     if (!lines.next(line))
-      throw InputError({lines.path().string(), lines.number()},
-                       "the file ends after " + std::to_string(i) + " of " + std::to_string(vertices.count) + " points",
-                       "the file was cut short; copy it again");
+      throw InputError(
+          {lines.path().string(), lines.number()},
+          "the file ends after " + std::to_string(i) + " of " + std::to_string(vertices.count) + " points",
+          "the file was cut short; copy it again");
     const std::vector<std::string> words = words_of(line);
     Point point;
     for (int axis = 0; axis < 3; ++axis) {
@@ -105,8 +107,8 @@ void read_text(LineReader& lines, const Element& vertices, std::vector<Point>& p
       double value = 0;
       const char* at = column < words.size() ? words[column].data() : nullptr;
       if (!at || !parse_number(at, at + words[column].size(), value) || *at)
-        throw InputError({lines.path().string(), lines.number()}, "expected the " + std::to_string(vertices.properties) +
-                                                                      " numbers of a point");
+        throw InputError({lines.path().string(), lines.number()},
+                         "expected the " + std::to_string(vertices.properties) + " numbers of a point");
       point[axis] = static_cast<float>(value);
     }
     keep_finite(points, point);
@@ -128,8 +130,9 @@ void read_binary(LineReader& lines, const Element& vertices, bool big_endian, st
     for (std::uint64_t i = 0; i < count; ++i) {
       Point point;
       for (int axis = 0; axis < 3; ++axis)
-        point[axis] = static_cast<float>(number_at(buffer.data() + i * vertices.size + vertices.axis_offset[axis],
-                                                   vertices.axis_type[axis], big_endian));
+        point[axis] =
+            static_cast<float>(number_at(buffer.data() + i * vertices.size + vertices.axis_offset[axis],
+                                         vertices.axis_type[axis], big_endian));
       keep_finite(points, point);
     }
     done += count;
@@ -147,7 +150,8 @@ std::vector<Point> read_ply(const std::filesystem::path& path) {
     if (element.name == "vertex") {
       for (int axis = 0; axis < 3; ++axis)
         if (element.axis_property[axis] < 0 || element.has_list)
-          throw InputError({path.string()}, "the element 'vertex' must have properties x, y and z, and no list",
+          throw InputError({path.string()},
+                           "the element 'vertex' must have properties x, y and z, and no list",
                            "export the cloud again as PLY");
       if (header.is_text)
         read_text(lines, element, points);
@@ -161,7 +165,8 @@ std::vector<Point> read_ply(const std::filesystem::path& path) {
       for (std::uint64_t i = 0; i < element.count; ++i)
         if (!lines.next(skipped)) break;
     } else if (element.has_list) {
-      throw InputError({path.string()}, "the element '" + element.name + "' with lists comes before the points",
+      throw InputError({path.string()},
+                       "the element '" + element.name + "' with lists comes before the points",
                        "export the cloud alone as PLY");
     } else {
       std::vector<char> buffer(element.size);

@@ -128,7 +128,8 @@ RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
   }
   if (files.empty())
     throw InputError({folder.string()}, "there are no scans here",
-                     "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, … (or .ply, .pcd, .3d, each also .gz)");
+                     "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, … (or .ply, .pcd, .3d, "
+                     "each also .gz)");
   std::sort(files.begin(), files.end());
 
   RoomScans room;

@@ -41,12 +41,14 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey&
   const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
   const Vec2 direction = line.direction();
   const double low = storey.ceiling_z_m - options.top_band_m, high = storey.ceiling_z_m - 0.04;
-  std::vector<double> places;
+  const double bottom = storey.floor_z_m + 0.1;
+  std::vector<double> places, under;  // along the line: points under the ceiling, and all below them
   for (std::size_t i = 0; i < cloud.points_m.size(); i += step) {
     const Point& p = cloud.points_m[i];
-    if (p.z() < low || p.z() > high) continue;
+    if (p.z() < bottom || p.z() > high) continue;
     const Vec2 plan(p.x(), p.y());
-    if (std::abs(line.distance(plan)) <= line.band_m) places.push_back(direction.dot(plan));
+    if (std::abs(line.distance(plan)) <= line.band_m)
+      (p.z() < low ? under : places).push_back(direction.dot(plan));
   }
   line.wall.clear();
   if (places.empty()) return;
@@ -56,11 +58,22 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey&
   if (columns > 100000) return;
   std::vector<int> count(columns);
   for (const double place : places) ++count[static_cast<std::size_t>((place - line.start_m) / line.column_m)];
-  // Other walls and the ceiling's noise cross the band in single columns: a column counts with a neighbour.
+  std::vector<int> count_under(columns);
+  for (const double place : under) {
+    const double column = (place - line.start_m) / line.column_m;
+    if (column >= 0 && column < static_cast<double>(columns)) ++count_under[static_cast<std::size_t>(column)];
+  }
+  // A column counts when points under the ceiling are nearly as dense as below: the few over a cupboard's
+  // front are its noise. And it counts with others near it: single points there are strays.
+  const double expected_share = 0.1 * (high - low) / (low - bottom);
   line.wall.assign(columns, 0);
   for (std::size_t c = 0; c < columns; ++c) {
-    const bool beside = (c > 0 && count[c - 1] > 0) || (c + 1 < columns && count[c + 1] > 0);
-    line.wall[c] = count[c] >= 2 && beside;
+    int near = 0, near_under = 0;
+    for (std::size_t other = c < 2 ? 0 : c - 2; other < std::min(columns, c + 3); ++other) {
+      near += count[other];
+      near_under += count_under[other];
+    }
+    line.wall[c] = count[c] > 0 && near >= 3 && near >= expected_share * near_under;
   }
   // Gaps of up to half a metre in the points are gaps of the scan, not of the wall.
   const std::size_t longest_gap = 5;
