@@ -75,7 +75,7 @@ NodeTable forward(const Lattice& lattice);
 double log_total(const Lattice& lattice, const NodeTable& forward);
 
 /// Nodes whose posterior probability is below kDeadPosterior are left out of what follows the two sums.
-inline constexpr double kDeadPosterior = 1e-15;
+inline constexpr double kDeadPosterior = 1e-30;
 
 /// Sum over all completions of each node that `forward` reaches.
 NodeTable backward(const Lattice& lattice, const NodeTable& forward);

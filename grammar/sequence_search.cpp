@@ -10,7 +10,7 @@ namespace {
 
 using PrefixPtr = std::shared_ptr<const Prefix>;
 
-constexpr double kNegligible = 1e-12;  // share of a prefix below which its nodes are left out
+constexpr double kNegligible = 1e-14;  // share of a prefix below which its nodes are left out
 
 class Search {
  public:
@@ -120,8 +120,7 @@ class Search {
         departures_.take([&](int id, double factor) {
           const Emission& emission = lattice_.row().emissions[static_cast<std::size_t>(id)];
           for (const Move& move : edges_.moves(cell, emission.element, e)) {
-            double* target =
-                &scratch_[lattice_.node(move.first_cell, emission.target, move.target_evidence)];
+            double* target = &scratch_[lattice_.node(move.first_cell, emission.target, move.target_evidence)];
             for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
             first = std::min(first, move.first_cell);
             last = std::max(last, move.last_cell());

@@ -1,0 +1,36 @@
+// Every layout of a small space, one by one, straight from the meaning of the rules: no automaton, no tables.
+// Slow and simple on purpose; the fit has to agree with it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grammar/evidence.h"
+#include "grammar/grid.h"
+#include "grammar/rules.h"
+#include "grammar/space.h"
+
+namespace gramap::test {
+
+/// All layouts of one sequence of types.
+struct OracleSequence {
+  double weight = 0;                 // summed over layouts and associations
+  double best_layout = 0;            // the largest weight of one layout with one association
+  std::vector<double> x, xx, w, ww;  // by element: moments of start and clear width, weighted
+};
+
+struct OracleResult {
+  double total = 0;
+  std::map<std::string, OracleSequence> sequences;
+  /// [type + 1][cell]: weight of layouts in which a room of the type covers the cell (without units only)
+  std::vector<std::vector<double>> coverage;
+  long layouts = 0;
+};
+
+/// None when there are more layouts than `most`.
+std::optional<OracleResult> enumerate_layouts(const RuleSet& rules, const SpaceProblem& problem,
+                                              const Evidence& evidence, const Grid& grid, long most);
+
+}  // namespace gramap::test
