@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   int code = kDone;
   const std::vector<Verb (*)(CLI::App&)> verbs = {
       declare_check,     //
+      declare_explain,   //
       declare_fit,       //
       declare_fmt,       //
       declare_plan,      //

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "floor/furnish.h"
 #include "floor/fuse.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
@@ -258,6 +259,7 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
     room.extracted_width_m = seen.length_m;
     room.extracted_sigma_m = std::max(observation.width.sigma_m, observation.depth.sigma_m);
   }
+  furnish(fitted, rules, problems, observations);
   return fitted;
 }
 
