@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
       declare_simulate,  //
       declare_verify,    //
       declare_view,      //
+      declare_train,     //
   };
   for (const auto declare : verbs) {
     const Verb verb = declare(app);

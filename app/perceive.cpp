@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "app/png.h"
 #include "app/verbs.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "perception/debug.h"
+#include "perception/label_image.h"
 
 namespace gramap {
 namespace {
@@ -25,6 +27,7 @@ struct Options {
   std::string unit, up = "z";
   std::string debug;
   bool verbose = false;
+  std::string images;
   PerceptionOptions perception;
 };
 
@@ -48,6 +51,17 @@ std::vector<fs::path> rooms_of(const std::vector<std::string>& folders) {
       rooms.insert(rooms.end(), inside.begin(), inside.end());
   }
   return rooms;
+}
+
+/// What each wall looks like from the scanner positions, as pictures ROOM_wallN.png.
+void write_wall_images(const fs::path& folder, const Perception& found) {
+  fs::create_directories(folder);
+  const std::vector<WallImage> walls = label_images(found.cloud, found.observation);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Picture picture = wall_picture(walls[i]);
+    write_file(folder / (found.observation.room + "_wall" + std::to_string(i) + ".png"),
+               png_bytes(picture.width, picture.height, picture.rgb));
+  }
 }
 
 void print_fault(const InputError& error) {
@@ -81,16 +95,22 @@ int run(const Options& options) {
           if (many) to /= folder.filename();
           write_debug(to, found);
         };
-      const RoomObservation room = perceive_room(read_room_scans(folder, reading), perception);
+      const RoomScans scans = read_room_scans(folder, reading);
+      const Perception found = perceive(registered(scans), scans.room, perception);
+      const RoomObservation& room = found.observation;
+      if (!options.images.empty()) write_wall_images(options.images, found);
       fs::path output = options.output;
       if (many) {
         fs::create_directories(output);
         output /= room.room + ".json";
       }
       write_file(output, to_json(room));
-      std::fprintf(stderr, "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls\n",
+      std::fprintf(stderr,
+                   "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls, %zu doors "
+                   "and windows, %zu pieces of furniture\n",
                    room.room.c_str(), room.width.value_m, room.width.sigma_m, room.depth.value_m,
-                   room.depth.sigma_m, room.height.value_m, room.height.sigma_m, room.walls.size());
+                   room.depth.sigma_m, room.height.value_m, room.height.sigma_m, room.walls.size(),
+                   room.openings.size(), room.furniture.size());
       for (const std::string& remark : room.remarks) std::fprintf(stderr, "  %s\n", remark.c_str());
     } catch (const InputError& error) {
       if (!many) throw;
@@ -126,6 +146,12 @@ Verb declare_perceive(CLI::App& gramap) {
   verb->add_option(
       "--debug", options->debug,
       "Folder for what each stage saw: planes.ply, planes.txt, plan.svg (for several rooms, a folder each)");
+  verb->add_option(
+      "--wall-images", options->images,
+      "Folder for a picture of every wall as the scanners saw it: labels (grey: wall, white: seen "
+      "through, red: not seen) and depth");
+  verb->add_flag("!--no-openings", options->perception.find_openings, "Do not look for doors and windows");
+  verb->add_flag("!--no-furniture", options->perception.find_furniture, "Do not look for furniture");
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
   return [options] { return run(*options); };
 }

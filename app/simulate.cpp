@@ -17,6 +17,7 @@
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "perception/random.h"
+#include "perception/scan.h"
 
 namespace gramap {
 namespace {
@@ -128,7 +129,7 @@ void write_room(const std::filesystem::path& folder, const SimulatedRoom& room, 
     char name[32];
     std::snprintf(name, sizeof name, "scan%03zu", i);
     write_file(folder / (std::string(name) + ".xyz"), xyz_text(room.scans[i].points, decimals));
-    write_file(folder / (std::string(name) + ".pose"), pose_text(room.scans[i].frame_from_scanner));
+    write_file(folder / (std::string(name) + ".pose"), pose_to_text(room.scans[i].frame_from_scanner));
   }
 }
 

@@ -34,5 +34,6 @@ Verb declare_learn(CLI::App& gramap);
 Verb declare_simulate(CLI::App& gramap);
 Verb declare_verify(CLI::App& gramap);
 Verb declare_view(CLI::App& gramap);
+Verb declare_train(CLI::App& gramap);
 
 }  // namespace gramap

@@ -26,7 +26,7 @@ Building building_of(const FloorTruth& truth) {
   for (const TrueFurniture& piece : truth.furniture)
     if (const auto room = index.find(piece.room); room != index.end())
       building.rooms[room->second].furniture.push_back(
-          {piece.type, piece.outline, piece.bottom_m, piece.top_m});
+          {piece.type, piece.outline, piece.bottom_m, piece.top_m, false});
   return building;
 }
 

@@ -11,6 +11,7 @@
 #include "perception/hidden_walls.h"
 #include "perception/level.h"
 #include "perception/measure.h"
+#include "perception/models.h"
 #include "perception/storey.h"
 
 namespace gramap {
@@ -106,8 +107,24 @@ Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
   return found;
 }
 
+Perception perceive(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options) {
+  Perception found = perceive_structure(std::move(cloud), room, options);
+  Stages stages(options);
+  if (options.find_openings) {
+    found.observation.openings =
+        find_openings(found.cloud, found.observation, shipped_openings_forest(), options.openings);
+    stages.end("openings");
+  }
+  if (options.find_furniture) {
+    found.observation.furniture =
+        find_furniture(found.cloud, found.observation, shipped_furniture_forest(), options.furniture);
+    stages.end("furniture");
+  }
+  return found;
+}
+
 RoomObservation perceive_room(const RoomScans& scans, const PerceptionOptions& options) {
-  return perceive_structure(registered(scans), scans.room, options).observation;
+  return perceive(registered(scans), scans.room, options).observation;
 }
 
 WallFrame wall_frame(const RoomObservation& observation, std::size_t index) {

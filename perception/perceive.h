@@ -4,8 +4,10 @@
 #include <functional>
 #include <string>
 
+#include "perception/furniture.h"
 #include "perception/hough.h"
 #include "perception/observation.h"
+#include "perception/openings.h"
 #include "perception/outline.h"
 #include "perception/wall_lines.h"
 
@@ -17,6 +19,10 @@ struct PerceptionOptions {
   HoughOptions hough;
   WallOptions walls;
   OutlineOptions outline;
+  OpeningOptions openings;
+  FurnitureOptions furniture;
+  bool find_openings = true;
+  bool find_furniture = true;
   /// Called after each stage with its name and seconds; may be empty.
   std::function<void(const std::string& stage, double seconds)> on_stage;
   /// Called with what the stages found, also when they found no room; may be empty.
@@ -39,7 +45,8 @@ struct Perception {
 Perception perceive_structure(RegisteredCloud cloud, const std::string& room,
                               const PerceptionOptions& options = {});
 
-/// The whole of perception.
+/// The whole of perception: the structure, then doors and windows, then furniture, by the forests that ship.
+Perception perceive(RegisteredCloud cloud, const std::string& room, const PerceptionOptions& options = {});
 RoomObservation perceive_room(const RoomScans& scans, const PerceptionOptions& options = {});
 
 /// The frame of a perceived wall: origin at corner `a` on the floor, x along the wall to `b`, y up, z into

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "geometry/error.h"
@@ -129,6 +130,7 @@ SimulatedRoom simulate_room(const BuildingRoom& room, const FaceSet& faces, cons
     simulated.mean_position += place / static_cast<double>(places.size());
     simulated.scans.push_back(std::move(scan));
   }
+  simulated.frame_from_building = frame_from_building;
   return simulated;
 }
 
@@ -142,6 +144,20 @@ std::vector<SimulatedRoom> simulate_rooms(const Building& building, const std::v
     simulated[i] = simulate_room(building.rooms[rooms[i]], faces, options);
   });
   return simulated;
+}
+
+std::string xyz_text(const std::vector<Vec3>& points, int decimals) {
+  std::string text;
+  text.reserve(points.size() * 24);
+  char digits[64];
+  for (const Vec3& p : points)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto end =
+          std::to_chars(digits, digits + sizeof digits, p[axis], std::chars_format::fixed, decimals);
+      text.append(digits, end.ptr);
+      text.push_back(axis < 2 ? ' ' : '\n');
+    }
+  return text;
 }
 
 }  // namespace gramap

@@ -27,6 +27,7 @@ struct BuildingFurniture {
   Polygon outline;
   double bottom_m = 0;
   double top_m = 0;
+  bool closed = false;  ///< a table or chair with panels down to the floor
 };
 
 struct BuildingRoom {
@@ -84,6 +85,8 @@ struct SimulatedScan {
 
 struct SimulatedRoom {
   std::vector<SimulatedScan> scans;
+  Eigen::Isometry3d frame_from_building =
+      Eigen::Isometry3d::Identity();  ///< the drift, or the room's own frame
   Vec2 mean_position = Vec2::Zero();  ///< of the sensor, in the building's frame, without any error
 };
 
@@ -95,8 +98,5 @@ std::vector<SimulatedRoom> simulate_rooms(const Building& building, const std::v
 
 /// The bytes of a `.xyz` file: a point a line with `decimals` digits.
 std::string xyz_text(const std::vector<Vec3>& points, int decimals);
-
-/// The bytes of a 3DTK `.pose` file: centimetres and degrees in its left-handed frame.
-std::string pose_text(const Eigen::Isometry3d& frame_from_scanner);
 
 }  // namespace gramap

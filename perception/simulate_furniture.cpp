@@ -35,7 +35,9 @@ void add_plate_on_legs(std::vector<Face>& faces, const Polygon& outline, double 
 
 void add_furniture(std::vector<Face>& faces, const BuildingFurniture& piece, double floor_m) {
   const double bottom = floor_m + piece.bottom_m, top = floor_m + piece.top_m;
-  if (piece.type == "table") {
+  if (piece.closed && (piece.type == "table" || piece.top_m <= kStool_m)) {
+    add_prism(faces, piece.outline, bottom, top);
+  } else if (piece.type == "table") {
     add_plate_on_legs(faces, piece.outline, bottom, top);
   } else if (piece.type == "chair" && piece.top_m <= kStool_m) {
     add_plate_on_legs(faces, piece.outline, bottom, top);

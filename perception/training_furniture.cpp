@@ -1,0 +1,96 @@
+// Furniture's side of training: labelled candidates and scores.
+#include <cstdio>
+#include <map>
+
+#include "geometry/polygon.h"
+#include "perception/training.h"
+#include "perception/truth_match.h"
+
+namespace gramap {
+namespace {
+
+int label_of(const std::string& type) {
+  return type == "table" ? kTable : type == "chair" ? kChair : kOther;
+}
+
+/// Candidates labelled by the true piece that they overlap by at least 0.7, none below 0.5.
+std::vector<Sample> furniture_samples(const KnownRoom& known, const FurnitureOptions& options) {
+  std::vector<Sample> samples;
+  const FurnitureCandidates candidates = furniture_candidates(known.cloud, known.room, options);
+  const auto add = [&](const FurnitureCandidate& candidate) {
+    double best = 0;
+    int label = kNoFurniture;
+    Polygon footprint = candidate.footprint;
+    for (Vec2& p : footprint) p += known.cloud.origin_m.head<2>();
+    for (const BuildingFurniture& piece : known.truth.furniture) {
+      if ((centroid(piece.outline) - centroid(footprint)).norm() > 2) continue;
+      if (std::abs(piece.top_m - candidate.top_m) > 0.25 && piece.type != "chair") continue;
+      const double share = plan_overlap(piece.outline, footprint);
+      if (share > best) best = share, label = label_of(piece.type);
+    }
+    if (best >= 0.5 && best < 0.7) return;
+    samples.push_back({candidate.features, best < 0.5 ? static_cast<int>(kNoFurniture) : label, known.group});
+  };
+  for (const int root : candidates.roots) {
+    const FurnitureCandidate& whole = candidates.all[static_cast<std::size_t>(root)];
+    add(whole);
+    for (const int part : whole.parts) add(candidates.all[static_cast<std::size_t>(part)]);
+  }
+  return samples;
+}
+
+std::string described(const char* fault, const std::string& type, const Polygon& outline, double top_m) {
+  char text[160];
+  const OrientedBox box = oriented_box(outline);
+  const Vec2 middle = centroid(outline);
+  std::snprintf(text, sizeof text, "%s %s of %.2f x %.2f m, %.2f m high, at (%.2f, %.2f)", fault,
+                type.c_str(), box.length_m, box.breadth_m, top_m, middle.x(), middle.y());
+  return text;
+}
+
+/// "furniture": found where there is some, of whatever class; "class right": of those, the ones called by
+/// their name.
+std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<FurnitureObservation>& found,
+                                                           const BuildingRoom& truth) {
+  std::map<std::string, Score> scores;
+  Score& any = scores["furniture"];
+  Score& named = scores["class right"];
+  std::vector<bool> taken(truth.furniture.size());
+  any.found = static_cast<int>(found.size());
+  any.truth = static_cast<int>(truth.furniture.size());
+  for (const BuildingFurniture& piece : truth.furniture)
+    ++scores[furniture_class_names()[static_cast<std::size_t>(label_of(piece.type))]].truth;
+  for (const FurnitureObservation& one : found) {
+    ++scores[one.type].found;
+    bool right = false;
+    for (std::size_t i = 0; i < truth.furniture.size() && !right; ++i) {
+      const BuildingFurniture& piece = truth.furniture[i];
+      if (taken[i] || plan_overlap(one.footprint, piece.outline) < 0.5) continue;
+      right = taken[i] = true;
+      ++any.right, ++named.truth, ++named.found;
+      const bool same = furniture_class_names()[static_cast<std::size_t>(label_of(piece.type))] == one.type;
+      named.right += same, scores[one.type].right += same;
+      if (!same)
+        named.mistakes.push_back(
+            described(("called " + one.type + ":").c_str(), piece.type, piece.outline, piece.top_m));
+    }
+    if (!right) any.mistakes.push_back(described("false", one.type, one.footprint, one.top_m));
+  }
+  for (std::size_t i = 0; i < truth.furniture.size(); ++i)
+    if (!taken[i])
+      any.mistakes.push_back(
+          described("missed", truth.furniture[i].type, truth.furniture[i].outline, truth.furniture[i].top_m));
+  return {scores.begin(), scores.end()};
+}
+
+}  // namespace
+
+Task furniture_task(const FurnitureOptions& options) {
+  return {"furniture", furniture_feature_names(), furniture_class_names(),
+          [options](const KnownRoom& known) { return furniture_samples(known, options); },
+          [options](const KnownRoom& known, const Forest& forest) {
+            return score_furniture(find_furniture(known.cloud, known.room, forest, options), known.truth);
+          }};
+}
+
+}  // namespace gramap

@@ -1,0 +1,65 @@
+#include "perception/furniture.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "geometry/polygon.h"
+#include "perception/models.h"
+#include "perception/training.h"
+#include "perception/truth_match.h"
+
+using namespace gramap;
+
+namespace {
+
+Polygon box(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+Building room_with(std::vector<BuildingFurniture> furniture) {
+  return {{{"room", box(0, 0, 5, 4.5), 0, 2.7, {}, std::move(furniture)}}};
+}
+
+std::vector<FurnitureObservation> found_in(const Building& building) {
+  SimulateOptions options;
+  options.points_per_room = 80000;
+  const KnownRoom known = known_rooms(building, options, 0)[0];
+  auto found = find_furniture(known.cloud, known.room, shipped_furniture_forest());
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("an empty room has no furniture") {
+  CHECK(found_in(room_with({})).empty());
+}
+
+TEST_CASE("a table, a stool and a cupboard are found and told apart") {
+  const Building building = room_with({{"table", box(1.5, 1.5, 3.1, 2.3), 0, 0.75, false},
+                                       {"chair", box(2.1, 2.5, 2.5, 2.9), 0, 0.45, false},
+                                       {"other", box(4.5, 1, 4.99, 2.3), 0, 2.0, false}});
+  SimulateOptions options;
+  options.points_per_room = 80000;
+  const KnownRoom known = known_rooms(building, options, 0)[0];
+  const auto found = find_furniture(known.cloud, known.room, shipped_furniture_forest());
+  REQUIRE(found.size() == 3);
+  for (const BuildingFurniture& piece : known.truth.furniture) {
+    const FurnitureObservation* best = nullptr;
+    for (const FurnitureObservation& one : found)
+      if (plan_overlap(one.footprint, piece.outline) > 0.5) best = &one;
+    REQUIRE(best != nullptr);
+    CHECK(best->type == piece.type);
+    CHECK(std::abs(best->top_m - piece.top_m) < 0.15);
+    CHECK(best->confidence > 0.4);
+    CHECK(signed_area(best->footprint) > 0);
+  }
+}
+
+TEST_CASE("no points or no outline give nothing") {
+  KnownRoom known = known_rooms(room_with({}), {}, 0)[0];
+  known.cloud.points_m.clear();
+  CHECK(find_furniture(known.cloud, known.room, shipped_furniture_forest()).empty());
+  known.room.outline.clear();
+  CHECK(find_furniture(known.cloud, known.room, shipped_furniture_forest()).empty());
+}
