@@ -64,14 +64,17 @@ Columns columns_of(const RegisteredCloud& cloud, const RoomObservation& room, co
   return columns;
 }
 
-/// The heights at which a column holds at least `least` points within a surface's thickness, fullest first.
+/// The heights at which a column holds at least `least` points within a surface's thickness, fullest first;
+/// clearly more than an upright face with the column's other points would hold there by chance.
 void add_levels(const std::vector<Eigen::Vector3f>& column, int at_column, int at_row, int least,
                 std::vector<Level>& levels) {
   std::vector<Level> found;
   for (std::size_t first = 0, last = 0; first < column.size(); ++first) {
     while (last < column.size() && column[last].z() <= column[first].z() + kThickness_m) ++last;
     const int count = static_cast<int>(last - first);
-    if (count >= least)
+    const double slices = std::max(1.0, (column.back().z() - column.front().z()) / kThickness_m - 1);
+    const double by_chance = static_cast<double>(column.size() - static_cast<std::size_t>(count)) / slices;
+    if (count >= least && count > by_chance + 3 * std::sqrt(by_chance))
       found.push_back({at_column, at_row, column[first + static_cast<std::size_t>(count) / 2].z(), count});
   }
   std::stable_sort(found.begin(), found.end(),
@@ -127,13 +130,17 @@ FurnitureSurface surface_of(const std::vector<Level>& levels, const std::vector<
     for (int row = std::max(0, level.row - 1); row <= std::min(near.rows - 1, level.row + 1); ++row)
       for (int column = std::max(0, level.column - 1); column <= std::min(near.columns - 1, level.column + 1);
            ++column)
-        near.at(column, row) = 1;
+        near.at(column, row) = std::max<std::uint8_t>(near.at(column, row), 1);
+    near.at(level.column, level.row) = 2;
   }
   surface.top_m = weighted / weight;
   for (int row = 0; row < near.rows; ++row)
     for (int column = 0; column < near.columns; ++column) {
-      if (near.at(column, row) == 0) continue;
-      for (const Eigen::Vector3f& p : columns.cells.at(column, row)) {
+      const auto& column_points = columns.cells.at(column, row);
+      if (near.at(column, row) == 0 || column_points.empty()) continue;
+      // Beside the surface something higher may stand, whose faces are not this surface's.
+      if (near.at(column, row) == 1 && column_points.back().z() > surface.top_m + kThickness_m) continue;
+      for (const Eigen::Vector3f& p : column_points) {
         if (std::abs(p.z() - surface.top_m) < 0.5 * kThickness_m + 0.01)
           surface.points.push_back(p.head<2>().cast<double>());
         else if (p.z() < surface.top_m)
@@ -217,7 +224,8 @@ std::vector<FurnitureSurface> furniture_surfaces(const RegisteredCloud& cloud, c
   const auto same_height = [](const Level& a, const Level& b) { return std::abs(a.z - b.z) < kStep_m; };
   for (const auto& group : groups_of(levels, columns.cells.columns, columns.cells.rows, 1, same_height)) {
     const double area = static_cast<double>(group.size()) * cell_m * cell_m;
-    if (area < 0.6 * options.least_area_m2 || area > options.most_floor_share * signed_area(outline))
+    if (group.size() < 2 || area < 0.4 * options.least_area_m2 ||
+        area > options.most_floor_share * signed_area(outline))
       continue;
     found.push_back(surface_of(levels, group, columns));
     for (const int i : group) raise_around(surface_top_m, levels[static_cast<std::size_t>(i)]);
