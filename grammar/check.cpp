@@ -243,6 +243,9 @@ CheckedRules check_rules(std::string_view text, const std::string&) {
   resolve_rules(r);
   resolve_afters(r);
   report_unused(r);
+  const auto is_error = [](const Diagnostic& d) { return d.severity == Severity::error; };
+  if (file.diagnostics.empty() && std::none_of(r.diagnostics.begin(), r.diagnostics.end(), is_error))
+    check_statically(r);
 
   CheckedRules checked;
   checked.diagnostics = file.diagnostics;
@@ -256,8 +259,7 @@ CheckedRules check_rules(std::string_view text, const std::string&) {
   };
   checked.diagnostics.erase(std::unique(checked.diagnostics.begin(), checked.diagnostics.end(), same),
                             checked.diagnostics.end());
-  const bool sound = std::none_of(checked.diagnostics.begin(), checked.diagnostics.end(),
-                                  [](const Diagnostic& d) { return d.severity == Severity::error; });
+  const bool sound = std::none_of(checked.diagnostics.begin(), checked.diagnostics.end(), is_error);
   if (sound) checked.rules = std::move(r.rules);
   return checked;
 }

@@ -38,7 +38,7 @@ std::string found(const Token& token) {
 std::string advice(Iterator where, Iterator statement, const std::string& which) {
   const Token& token = *where;
   const bool second = where == statement + 1;
-  if (which == "a name" && is_keyword(token.text))
+  if ((which == "a name" || which == "a statement") && is_keyword(token.text))
     return "`" + token.text + "` is a word of the language; choose another name";
   if (which == "`:`" && second) {
     const std::string near = nearest(statement->text, {kStatementWords.begin(), kStatementWords.end()});
@@ -47,14 +47,23 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
       return "a rule begins with a name of its own: `" + statement->text + "_row: " + statement->text +
              " -> …`";
     return "a statement begins with `grammar`, `let`, `wall`, `height`, `room`, `start`, `after`, "
-           "`background`, `hallways`, or "
-           "with a rule's name and `:`";
+           "`background`, or with a rule's name and `:`";
   }
   if (which == "`->`") {
     if (token.text == "=") return "write `->` between what is replaced and what replaces it";
     return "a rule is `name: before < Symbol > behind : condition -> body : probability;`";
   }
-  if (which == "`;`") return "a statement ends with `;`";
+  if (which == "`;`") {
+    const bool two_names = statement->text == "grammar" && where == statement + 2 && !token.starts_line &&
+                           token.kind == Token::Kind::name;
+    if (two_names) return "a name is one word: `" + (where - 1)->text + "_" + token.text + "`";
+    return "a statement ends with `;`";
+  }
+  if (which == "a statement")
+    return "a statement begins with `grammar`, `let`, `wall`, `height`, `room`, `start`, `after`, "
+           "`background`, or with a rule's name and `:`";
+  if (which == "`{`" && token.text == "=")
+    return "leave out the `=`: `" + statement->text + " " + (where - 1)->text + " { … }`";
   if (which == "a statement of the room" || which == "`}`") {
     const std::string near = nearest(token.text, {kBlockWords.begin(), kBlockWords.end()});
     if (!near.empty() && near != token.text) return "did you mean `" + near + "`?";
@@ -74,7 +83,8 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
 void report(State& state, Iterator statement, Iterator where, const std::string& which) {
   if (where->kind == Token::Kind::bad) return;  // the fault is already recorded
   const bool has_before = where != state.begin;
-  const bool at_break = has_before && (where->starts_line || where->kind == Token::Kind::end);
+  const bool at_break =
+      has_before && which != "a statement" && (where->starts_line || where->kind == Token::Kind::end);
   Diagnostic fault;
   fault.code = which == "`;`" ? "E0102" : which == "`}`" ? "E0103" : "E0101";
   if (at_break) {
@@ -209,7 +219,9 @@ struct Semicolon : x3::parser<Semicolon> {
     }
     if (first != last && first->text == "}" && in_block_)
       return true;  // the last one in a block may be left out
-    report(x3::get<StateTag>(context), first, first, "`;`");
+    State& state = x3::get<StateTag>(context);
+    const bool of_grammar = first - state.begin == 2 && state.begin->text == "grammar";
+    report(state, of_grammar ? state.begin : first, first, "`;`");
     if (first != last && !first->starts_line) first = resume(first, last);
     return true;
   }
@@ -233,7 +245,7 @@ struct Recovering : x3::unary_parser<Subject, Recovering<Subject>> {
     Iterator where = first;
     try {
       if (this->subject.parse(first, last, context, rcontext, x3::unused)) return true;
-      report(state, begin, first, x3::what(this->subject));
+      report(state, begin, first, in_block_ ? x3::what(this->subject) : "a statement");
     } catch (const x3::expectation_failure<Iterator>& failure) {
       where = failure.where();
       report(state, begin, where, failure.which());

@@ -50,6 +50,7 @@ std::optional<Value> Quantities::named(const Expr& expr) {
     std::vector<std::string_view> names;
     for (const auto& [name, constant] : lets_) names.push_back(name);
     const std::string near = nearest(expr.text, names);
+    if (!near.empty()) lets_.at(near).used = true;
     fault("E0202", expr, "there is no constant `" + expr.text + "`",
           near.empty() ? "define it: `let " + expr.text + " = 1.00 m;`" : "did you mean `" + near + "`?");
     return std::nullopt;

@@ -44,4 +44,8 @@ std::vector<Item> resolve_body(Resolver& resolver, const std::vector<syntax::Ter
 /// A rule's condition, its operands' kinds checked.
 Condition resolve_condition(Resolver& resolver, const syntax::Expr& expr);
 
+/// Faults of the rules as a whole, once each is well formed: recursion that is no row, splits that never fill
+/// their scope, rules that are never applied.
+void check_statically(Resolver& resolver);
+
 }  // namespace gramap

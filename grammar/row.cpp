@@ -52,20 +52,27 @@ int code(const SymbolRef& ref) {
 /// Symbols that can come back when they are rewritten.
 std::vector<bool> recursive_symbols(const RuleSet& rules) {
   const std::size_t n = rules.symbols.size();
-  std::vector<std::vector<bool>> reaches(n, std::vector<bool>(n, false));
+  std::vector<std::vector<std::size_t>> leads_to(n);
   const auto visit = [&](auto&& self, const Item& item, std::size_t from) -> void {
     if (item.kind == Item::Kind::piece && item.ref.kind == SymbolRef::Kind::symbol)
-      reaches[from][static_cast<std::size_t>(item.ref.index)] = true;
+      leads_to[from].push_back(static_cast<std::size_t>(item.ref.index));
     for (const Item& child : item.children) self(self, child, from);
   };
   for (const Rule& rule : rules.rules)
     for (const Item& item : rule.body) visit(visit, item, static_cast<std::size_t>(rule.symbol));
-  for (std::size_t k = 0; k < n; ++k)
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j)
-        if (reaches[i][k] && reaches[k][j]) reaches[i][j] = true;
   std::vector<bool> recursive(n);
-  for (std::size_t i = 0; i < n; ++i) recursive[i] = reaches[i][i];
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<bool> reached(n, false);
+    std::vector<std::size_t> open{i};
+    while (!open.empty() && !recursive[i]) {
+      const std::size_t from = open.back();
+      open.pop_back();
+      for (const std::size_t to : leads_to[from]) {
+        if (to == i) recursive[i] = true;
+        if (!reached[to]) reached[to] = true, open.push_back(to);
+      }
+    }
+  }
   return recursive;
 }
 
@@ -150,8 +157,6 @@ class Compiler {
 
   void expand(const Configuration& c, double probability, int depth) {
     if (c.list == 0 || probability <= 0) return;
-    if (depth > kDeepestRewriting)
-      fail(current_rule_, "this rule comes back to its symbol without placing a room");
     const Cell cell = cells_[static_cast<std::size_t>(c.list)];
     Configuration rest = c;
     switch (cell.kind) {
@@ -205,7 +210,13 @@ class Compiler {
     return push(cell, next);
   }
 
+  void check_depth(int depth) const {
+    if (depth > kDeepestRewriting)
+      fail(current_rule_, "this rule comes back to its symbol without placing a room");
+  }
+
   void repeat(const Cell& cell, const Configuration& c, double probability, int depth) {
+    check_depth(depth);
     const Item& item = (*cell.row)[static_cast<std::size_t>(cell.index)];
     const double stop = stop_probability(item, cell.count);
     Configuration next = c;
@@ -228,6 +239,7 @@ class Compiler {
   }
 
   void rewrite(int symbol, const Configuration& rest, double probability, int depth, int whole_list) {
+    check_depth(depth);
     std::vector<int> candidates;
     std::vector<double> weights;
     double sum = 0;

@@ -92,6 +92,15 @@ TEST_CASE("faults of all kinds in one file are all found in one run") {
                                                 "E0101", "E0001", "E0001"});
 }
 
+TEST_CASE("a newcomer's twelve mistakes get twelve messages, each with what to write instead") {
+  const auto diagnostics = check_rules(read_file(kFolder / "newcomer.grammar"), "t").diagnostics;
+  CHECK(diagnostics.size() == 12);
+  for (const Diagnostic& d : diagnostics) {
+    CHECK(d.severity == Severity::error);
+    CHECK_FALSE(d.help.empty());
+  }
+}
+
 TEST_CASE("a missing semicolon is reported where it is missing") {
   CHECK(
       first_line(

@@ -18,7 +18,7 @@ RuleSet with_rule(const std::string& rule, const std::string& extra = "") {
   return read(
       "grammar t; let axis = 3 m; room A { width axis - 20 cm; depth 4 m; } room B { width 2*axis; depth 3 "
       "m; } "
-      "start S; both: S -> A B : 0;\n" +
+      "start S; both: S -> A B : 1;\n" +
       rule + "\n" + extra);
 }
 const std::vector<Item>& body(const RuleSet& rules) {
