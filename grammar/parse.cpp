@@ -95,6 +95,13 @@ void report(State& state, Iterator statement, Iterator where, const std::string&
     fault.message = "expected " + which + ", found " + found(*where);
     fault.span = where->span;
   }
+  if (which == "a statement" && where->text == "hallways") {
+    fault.code = "E0105";
+    fault.message = "this version does not grow hallways from rules";
+    fault.help = "remove the block, and give the hallways in the floor file";
+    state.diagnostics.push_back(std::move(fault));
+    return;
+  }
   fault.help = advice(where, statement, which);
   state.diagnostics.push_back(std::move(fault));
 }

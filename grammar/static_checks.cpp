@@ -204,7 +204,8 @@ void check_use(Resolver& r, const RuleSet& rules, const Row& row) {
 }  // namespace
 
 void check_statically(Resolver& r) {
-  const auto errors_before = r.diagnostics.size();
+  const auto faults_before = r.diagnostics.size();
+  RuleSet bare = r.rules;
   for (std::size_t i = 0; i < r.rules.rules.size(); ++i) {
     for (const Item& item : r.rules.rules[i].body) check_items(r, item, body_span(r.file.rules[i]));
     if (!can_hold(r.rules.rules[i].condition))
@@ -212,13 +213,12 @@ void check_statically(Resolver& r) {
                 "this condition never holds, so the rule `" + r.rules.rules[i].name + "` is never applied",
                 "change the condition, or remove the rule");
   }
-  RuleSet bare = r.rules;
   for (Rule& rule : bare.rules) rule.condition = {};
   std::set<int> faulty;
   for (int count = 0; count < kMostFaults; ++count) {
     const CompiledRow compiled = compile_row(bare, {}, make_grid(1, bare.inner_wall_m, 1));
     if (!compiled.fault) {
-      if (faulty.empty() && r.diagnostics.size() == errors_before) check_use(r, bare, compiled.row);
+      if (faulty.empty() && r.diagnostics.size() == faults_before) check_use(r, bare, compiled.row);
       return;
     }
     const int rule = compiled.fault->rule;
