@@ -53,6 +53,9 @@ Verb declare_learn(CLI::App& gramap) {
                    "How exactly the plans are drawn, in metres: no spread is taken to be smaller")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();
+  verb->add_flag(
+      "--types-by-width", arguments->options.types_by_width,
+      "Rooms that the plan gives no type: a type for each width, instead of one in several widths");
   verb->add_flag("--uniform", arguments->options.uniform,
                  "Give all rules of a symbol the same probability: a baseline for comparisons");
   return [arguments] { return learn(*arguments); };

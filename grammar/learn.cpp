@@ -91,15 +91,20 @@ double drawn_resolution(const LearnData& data, double resolution_m) {
   for (const auto& [type, widths] : by_type)
     for (const LengthGroup& group : group_lengths(widths, resolution_m, 8, 2))
       if (group.members.size() >= 3) spreads.insert(spreads.end(), group.members.size(), group.sd_m);
-  return spreads.empty() ? resolution_m : std::max(resolution_m, median(spreads));
+  return spreads.empty() ? resolution_m : std::max(resolution_m, std::min(0.12, median(spreads)));
 }
 
-/// One class for every group of widths of the rooms; returns the class of each room.
-std::vector<int> add_classes(const std::vector<const KnownRoom*>& rooms, int type, LearnedRules& rules) {
+std::vector<double> widths_of(const std::vector<const KnownRoom*>& rooms) {
   std::vector<double> widths;
   for (const KnownRoom* room : rooms) widths.push_back(room->width_m);
-  std::vector<int> classes(rooms.size());
-  for (const LengthGroup& group : group_lengths(widths, rules.options.resolution_m)) {
+  return widths;
+}
+
+/// One class for every group of the rooms' widths; returns the class of each room.
+std::vector<int> add_classes(const std::vector<double>& widths, const std::vector<LengthGroup>& groups,
+                             int type, LearnedRules& rules) {
+  std::vector<int> classes(widths.size());
+  for (const LengthGroup& group : groups) {
     WidthClass width;
     width.type = type;
     width.mean_m = group.mean_m;
@@ -123,23 +128,60 @@ int add_type(LearnedRules& rules, const std::string& wish) {
   return static_cast<int>(rules.types.size()) - 1;
 }
 
-/// Rooms without a type get one by their width, named by the number of axes.
-void split_untyped(const std::vector<const KnownRoom*>& rooms, std::vector<int>& classes,
-                   LearnedRules& rules) {
+/// A room's place: its row, and which room of the row it is.
+using RoomPlace = std::pair<std::size_t, std::size_t>;
+
+/// As many groups as make the whole description shortest, neighbours included: rooms whose widths run into
+/// one another are still of two kinds when each keeps to its own rows.
+std::vector<LengthGroup> group_by_neighbours(const std::vector<double>& widths,
+                                             const std::vector<RoomPlace>& places, double resolution_m) {
+  std::vector<LengthGroup> best;
+  double shortest = 0;
+  for (int count = 1; count <= 8; ++count) {
+    const std::vector<LengthGroup> groups = group_lengths_into(widths, resolution_m, count);
+    std::vector<int> label(widths.size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (const int i : groups[g].members) label[at(i)] = static_cast<int>(g);
+    std::vector<std::vector<int>> sequences;
+    for (std::size_t i = 0; i < places.size(); ++i) {  // places come row by row
+      const bool goes_on =
+          i > 0 && places[i].first == places[i - 1].first && places[i].second == places[i - 1].second + 1;
+      if (!goes_on) sequences.emplace_back();
+      sequences.back().push_back(label[i]);
+    }
+    const double parameters = 2 * static_cast<double>(groups.size());  // their shares are in the sequences
+    const double length = length_within_groups(widths, groups, resolution_m) +
+                          sequence_length(sequences, groups.size()) +
+                          0.5 * parameters * std::log(static_cast<double>(widths.size()));
+    if (!best.empty() && length >= shortest) continue;
+    shortest = length;
+    best = groups;
+  }
+  return best;
+}
+
+/// Rooms of a plan without types: one type `Room` that comes in several widths, or a type for each width,
+/// named by the number of axes.
+std::vector<int> add_untyped(const std::vector<const KnownRoom*>& rooms, const std::vector<RoomPlace>& places,
+                             LearnedRules& rules) {
   const std::size_t first = rules.classes.size();
-  classes = add_classes(rooms, -1, rules);
-  for (std::size_t c = first; c < rules.classes.size(); ++c) {
+  const std::vector<double> widths = widths_of(rooms);
+  const int type = rules.options.types_by_width ? -1 : add_type(rules, "Room");
+  const std::vector<int> classes =
+      add_classes(widths, group_by_neighbours(widths, places, rules.options.resolution_m), type, rules);
+  for (std::size_t c = first; c < rules.classes.size() && type < 0; ++c) {
     WidthClass& width = rules.classes[c];
     std::string name = count_word(width.axes);
     name = width.axes == 0 ? "Room_" + std::to_string(std::lround(width.mean_m * 10)) + "dm" : name + "Room";
     name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
     width.type = add_type(rules, name);
   }
+  return classes;
 }
 
 /// The class of every room, row by row.
 std::vector<std::vector<int>> classify(LearnedRules& rules) {
-  std::map<std::string, std::vector<std::pair<std::size_t, std::size_t>>> by_type;
+  std::map<std::string, std::vector<RoomPlace>> by_type;
   for (std::size_t r = 0; r < rules.data.rows.size(); ++r)
     for (std::size_t i = 0; i < rules.data.rows[r].rooms.size(); ++i) {
       const std::string& type = rules.data.rows[r].rooms[i].type;
@@ -151,10 +193,13 @@ std::vector<std::vector<int>> classify(LearnedRules& rules) {
     std::vector<const KnownRoom*> rooms;
     for (const auto& [r, i] : places) rooms.push_back(&rules.data.rows[r].rooms[i]);
     std::vector<int> found;
-    if (name.empty())
-      split_untyped(rooms, found, rules);
-    else
-      found = add_classes(rooms, add_type(rules, name), rules);
+    if (name.empty()) {
+      found = add_untyped(rooms, places, rules);
+    } else {
+      const std::vector<double> widths = widths_of(rooms);
+      found = add_classes(widths, group_lengths(widths, rules.options.resolution_m), add_type(rules, name),
+                          rules);
+    }
     for (std::size_t k = 0; k < places.size(); ++k) classes[places[k].first][places[k].second] = found[k];
   }
   for (std::size_t t = 0; t < rules.types.size(); ++t) {

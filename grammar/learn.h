@@ -33,7 +33,7 @@ struct KnownWindow {
 
 struct KnownRoom {
   std::string id;
-  std::string type;  ///< may be empty: then types are found by width
+  std::string type;  ///< may be empty, in a plan that has no types
   double width_m = 0;
   double depth_m = 0;
   std::vector<KnownDoor> doors;
@@ -63,7 +63,10 @@ struct LearnData {
 struct LearnOptions {
   std::string name = "learned";  ///< of the grammar
   double resolution_m = 0.02;    ///< no spread is taken to be smaller: how exactly plans are drawn
-  bool uniform = false;          ///< all rules of a symbol alike, no `after`: a baseline for comparisons
+  /// Rooms without a type: a type for each width. Otherwise they are one type in several widths, which fits
+  /// better: the most probable sequence is then sought over all widths, not split among made-up types.
+  bool types_by_width = false;
+  bool uniform = false;  ///< all rules of a symbol alike, no `after`: a baseline for comparisons
 };
 
 /// One width of a type.

@@ -7,33 +7,6 @@
 namespace gramap {
 namespace {
 
-/// Length of the sequences in tokens: the tokens' shares learned on the way (Krichevsky-Trofimov), each token
-/// after its own distribution where that pays.
-double data_length(const std::vector<std::vector<int>>& sequences, std::size_t tokens) {
-  std::vector<double> total(tokens, 0);
-  std::map<int, std::vector<double>> following;
-  for (const auto& sequence : sequences) {
-    int before = -1;
-    for (const int token : sequence) {
-      total[static_cast<std::size_t>(token)] += 1;
-      auto& counts = following.try_emplace(before, tokens, 0.0).first->second;
-      counts[static_cast<std::size_t>(token)] += 1;
-      before = token;
-    }
-  }
-  double n = 0, used = 0;
-  for (const double count : total) n += count, used += count > 0;
-  if (n == 0) return 0;
-  double length = std::lgamma(n + used / 2) - std::lgamma(used / 2);
-  for (const double count : total)
-    if (count > 0) length -= std::lgamma(count + 0.5) - std::lgamma(0.5);
-  std::vector<double> overall;
-  for (const double count : total) overall.push_back(count / n);
-  for (const auto& [before, counts] : following)
-    length -= std::max(0.0, log_evidence_of_own(counts, overall, 1.0) - std::log(2.0));
-  return length;
-}
-
 double token_length(const SequenceToken& token, std::size_t symbols) {
   if (token.symbols.size() == 1 && token.most == 0) return 0;
   double length =
@@ -43,7 +16,7 @@ double token_length(const SequenceToken& token, std::size_t symbols) {
 }
 
 double total_length(const SequenceModel& model, std::size_t symbols) {
-  double length = data_length(model.sequences, model.tokens.size());
+  double length = sequence_length(model.sequences, model.tokens.size());
   for (std::size_t t = 0; t < model.tokens.size(); ++t) {
     length += token_length(model.tokens[t], symbols);
     if (model.tokens[t].most == 0) continue;
@@ -112,6 +85,33 @@ double log_evidence_of_own(const std::vector<double>& counts, const std::vector<
     n += counts[i];
   }
   return own + std::lgamma(strength) - std::lgamma(strength + n) - shared;
+}
+
+// The tokens' shares learned on the way (Krichevsky-Trofimov), each token
+// after its own distribution where that pays.
+double sequence_length(const std::vector<std::vector<int>>& sequences, std::size_t tokens) {
+  std::vector<double> total(tokens, 0);
+  std::map<int, std::vector<double>> following;
+  for (const auto& sequence : sequences) {
+    int before = -1;
+    for (const int token : sequence) {
+      total[static_cast<std::size_t>(token)] += 1;
+      auto& counts = following.try_emplace(before, tokens, 0.0).first->second;
+      counts[static_cast<std::size_t>(token)] += 1;
+      before = token;
+    }
+  }
+  double n = 0, used = 0;
+  for (const double count : total) n += count, used += count > 0;
+  if (n == 0) return 0;
+  double length = std::lgamma(n + used / 2) - std::lgamma(used / 2);
+  for (const double count : total)
+    if (count > 0) length -= std::lgamma(count + 0.5) - std::lgamma(0.5);
+  std::vector<double> overall;
+  for (const double count : total) overall.push_back(count / n);
+  for (const auto& [before, counts] : following)
+    length -= std::max(0.0, log_evidence_of_own(counts, overall, 1.0) - std::log(2.0));
+  return length;
 }
 
 SequenceModel describe_sequences(const std::vector<std::vector<int>>& sequences, int symbols) {

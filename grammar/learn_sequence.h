@@ -18,6 +18,10 @@ struct SequenceModel {
   double length = 0;                        ///< nats
 };
 
+/// Length of sequences of the symbols 0 to `symbols` - 1, each said after the one before it where that is
+/// shorter.
+double sequence_length(const std::vector<std::vector<int>>& sequences, std::size_t symbols);
+
 /// Greedy grammar induction by minimum description length: starting from single symbols (token i is symbol
 /// i), the unit or repeat that shortens the description most is added, until none does.
 SequenceModel describe_sequences(const std::vector<std::vector<int>>& sequences, int symbols);

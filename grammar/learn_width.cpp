@@ -36,10 +36,9 @@ double penalty(std::size_t groups, std::size_t values) {
   return 0.5 * (3.0 * static_cast<double>(groups) - 1) * std::log(static_cast<double>(values));
 }
 
-}  // namespace
-
-std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, double resolution_m,
-                                       int most_groups, int least_members) {
+/// Between `fewest` and `most_groups` groups, as many as make the code shortest.
+std::vector<LengthGroup> best_groups(const std::vector<double>& values_m, double resolution_m, int fewest,
+                                     int most_groups, int least_members) {
   const std::size_t n = values_m.size();
   if (n == 0) return {};
   std::vector<int> order(n);
@@ -67,7 +66,7 @@ std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, doub
   std::vector<std::vector<double>> best(most + 1, std::vector<double>(n + 1, never));
   std::vector<std::vector<std::size_t>> from(most + 1, std::vector<std::size_t>(n + 1, 0));
   best[0][0] = 0;
-  std::size_t chosen = 1;
+  std::size_t chosen = most;
   double shortest = never;
   for (std::size_t k = 1; k <= most; ++k) {
     for (std::size_t b = k; b <= n; ++b) {
@@ -80,7 +79,7 @@ std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, doub
       }
     }
     const double length = best[k][n] + penalty(k, n);
-    if (length < shortest - 1e-9) {
+    if (static_cast<int>(k) >= fewest && length < shortest - 1e-9) {
       shortest = length;
       chosen = k;
     }
@@ -98,17 +97,40 @@ std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, doub
   return groups;
 }
 
-double code_length(const std::vector<double>& values_m, const std::vector<LengthGroup>& groups,
-                   double resolution_m) {
-  const double total = static_cast<double>(values_m.size());
-  double length = penalty(groups.size(), values_m.size());
+}  // namespace
+
+std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, double resolution_m,
+                                       int most_groups, int least_members) {
+  return best_groups(values_m, resolution_m, 1, most_groups, least_members);
+}
+
+std::vector<LengthGroup> group_lengths_into(const std::vector<double>& values_m, double resolution_m,
+                                            int groups) {
+  const int count = std::min(groups, static_cast<int>(values_m.size()));
+  return best_groups(values_m, resolution_m, count, count, 1);
+}
+
+double length_within_groups(const std::vector<double>& values_m, const std::vector<LengthGroup>& groups,
+                            double resolution_m) {
+  double length = 0;
   for (const LengthGroup& group : groups) {
     const double members = static_cast<double>(group.members.size());
     double squares = 0;
     for (const int i : group.members)
       squares += std::pow(values_m[static_cast<std::size_t>(i)] - group.mean_m, 2);
-    const double sd = std::max(std::sqrt(squares / members), resolution_m);
-    length += normal_cost(members, squares / members, sd) - members * std::log(members / total);
+    length += normal_cost(members, squares / members, std::max(std::sqrt(squares / members), resolution_m));
+  }
+  return length;
+}
+
+double code_length(const std::vector<double>& values_m, const std::vector<LengthGroup>& groups,
+                   double resolution_m) {
+  const double total = static_cast<double>(values_m.size());
+  double length =
+      penalty(groups.size(), values_m.size()) + length_within_groups(values_m, groups, resolution_m);
+  for (const LengthGroup& group : groups) {
+    const double members = static_cast<double>(group.members.size());
+    length -= members * std::log(members / total);
   }
   return length;
 }

@@ -21,6 +21,15 @@ struct LengthGroup {
 std::vector<LengthGroup> group_lengths(const std::vector<double>& values_m, double resolution_m,
                                        int most_groups = 8, int least_members = 1);
 
+/// The best grouping into just so many groups (fewer when there are fewer values).
+std::vector<LengthGroup> group_lengths_into(const std::vector<double>& values_m, double resolution_m,
+                                            int groups);
+
+/// Negative log density of the values, each under its own group's normal, in nats: the code length of the
+/// values once their groups are known.
+double length_within_groups(const std::vector<double>& values_m, const std::vector<LengthGroup>& groups,
+                            double resolution_m);
+
 /// The code length of the grouping in nats: negative log likelihood and half the BIC's penalty.
 double code_length(const std::vector<double>& values_m, const std::vector<LengthGroup>& groups,
                    double resolution_m);

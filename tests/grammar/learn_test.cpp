@@ -139,11 +139,15 @@ TEST_CASE("a width of three axes, never seen, and a room of no known width at al
   }
 }
 
-TEST_CASE("rooms without types get types by width") {
+TEST_CASE("rooms without types are one type in several widths, or a type for each width") {
   LearnData data = three_wings();
   for (KnownRow& row : data.rows)
     for (KnownRoom& room : row.rooms) room.type.clear();
-  const LearnedRules learned = learn_rules(data);
+  CHECK(learn_rules(data).types.size() == 1);
+  parsed(learn_rules(data));
+  LearnOptions options;
+  options.types_by_width = true;
+  const LearnedRules learned = learn_rules(data, options);
   CHECK(learned.types.size() >= 2);
   parsed(learned);
 }
@@ -193,7 +197,8 @@ TEST_CASE("the axis is found in noise and among stragglers, and not where there 
     std::vector<double> pitches, random;
     for (int i = 0; i < 40; ++i) {
       const double noise = 0.06 * (uniform(generator) + uniform(generator) - 1);
-      pitches.push_back(i % 20 == 7 ? (1.4 + 0.01 * i) * axis : axis * static_cast<double>(1 + generator() % 3) + noise);
+      pitches.push_back(i % 20 == 7 ? (1.4 + 0.01 * i) * axis
+                                    : axis * static_cast<double>(1 + generator() % 3) + noise);
       random.push_back(2 + 7 * uniform(generator));
     }
     const auto found = find_axis(pitches, 0.02);
