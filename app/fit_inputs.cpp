@@ -8,6 +8,7 @@
 #include "app/rules_file.h"
 #include "floor/ground_truth.h"
 #include "floor/scan_folder.h"
+#include "floor/spaces.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
 
@@ -85,6 +86,12 @@ FitInputs read_inputs(const FitInputOptions& options) {
     return inputs;
   }
   inputs.floor = read_floor(options.floor);
+  check_floor(inputs.floor, options.floor);
+  if (inputs.floor.spaces.empty()) {
+    const RuleSet rules = rules_on_floor(inputs.rules, inputs.floor);
+    for (const std::string& sentence : derive_spaces(inputs.floor, rules.inner_wall_m, rules.outer_wall_m))
+      if (!options.quiet) std::fprintf(stderr, "gramap: %s\n", sentence.c_str());
+  }
   const fs::path scans = scans_folder(options);
   if (!scans.empty()) {
     Progress progress("perceiving rooms", options.quiet);

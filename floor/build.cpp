@@ -38,12 +38,14 @@ const char* kind_name(ModelRoom::Kind kind) {
   return "room";
 }
 
-std::string described(const ModelRoom& room) {
-  return std::string(room.kind == ModelRoom::Kind::fixed ? "fixed room" : kind_name(room.kind)) + " '" +
-         room.fitted.id + "'";
+std::string described(const ModelRoom& room, const std::string& room_kind) {
+  const std::string kind = room.kind == ModelRoom::Kind::fixed     ? "fixed room"
+                           : room.kind == ModelRoom::Kind::hallway ? "hallway"
+                                                                   : room_kind;
+  return kind + " '" + room.fitted.id + "'";
 }
 
-void add_rooms(FloorModel& model, NodeNames& names) {
+void add_rooms(FloorModel& model, NodeNames& names, const std::string& room_kind = "room") {
   const FittedFloor& fitted = model.fitted;
   std::set<std::string> ids;
   const auto add = [&](ModelRoom::Kind kind, const std::vector<FittedRoom>& rooms) {
@@ -53,12 +55,16 @@ void add_rooms(FloorModel& model, NodeNames& names) {
       added.fitted = room;
       added.node = names.name(std::string(kind_name(kind)) + "_" + room.id);
       added.height_m = room.height_m > 0 ? room.height_m : model.height_m;
-      if (!ids.insert(room.id).second)
+      // A space may have the id of a room: it is none.
+      const bool space = kind == ModelRoom::Kind::room && room_kind != "room";
+      if (!ids.insert(space ? room_kind + "/" + room.id : room.id).second)
         throw InputError({}, "two rooms have the id '" + room.id + "'", "give each room an id of its own");
       if (room.outline.size() < 3 || std::abs(signed_area(room.outline)) < 1e-4)
-        throw InputError({}, described(added) + " has no area", "draw its clear outline as a polygon");
+        throw InputError({}, described(added, room_kind) + " has no area",
+                         "draw its clear outline as a polygon");
       for (const Vec2& p : room.outline)
-        if (!p.allFinite()) throw InputError({}, described(added) + " has a coordinate that is not finite");
+        if (!p.allFinite())
+          throw InputError({}, described(added, room_kind) + " has a coordinate that is not finite");
       if (signed_area(added.fitted.outline) < 0)
         std::reverse(added.fitted.outline.begin(), added.fitted.outline.end());
       model.rooms.push_back(std::move(added));
@@ -89,15 +95,17 @@ PlanInput plan_input(const FloorModel& model) {
 }
 
 /// A contradiction in what was given, as one sentence.
-[[noreturn]] void refuse(const FloorModel& model, const PlanFault& fault) {
-  const std::string a = described(model.rooms[fault.a]);
+[[noreturn]] void refuse(const FloorModel& model, const PlanFault& fault,
+                         const std::string& room_kind = "room") {
+  const std::string a = described(model.rooms[fault.a], room_kind);
   char area[32];
   std::snprintf(area, sizeof area, "%.3g m²", fault.area_m2);
   switch (fault.kind) {
     case PlanFault::Kind::overlap:
-      throw InputError(
-          {}, a + " and " + described(model.rooms[fault.b]) + " overlap by " + area + " at " + at(fault.at),
-          "move their borders apart in the floor file; between them there is room for a wall");
+      throw InputError({},
+                       a + " and " + described(model.rooms[fault.b], room_kind) + " overlap by " + area +
+                           " at " + at(fault.at),
+                       "move their borders apart in the floor file; between them there is room for a wall");
     case PlanFault::Kind::outside_outline:
       throw InputError({}, a + " reaches " + area + " out of the floor's outline at " + at(fault.at),
                        "the outline is the outer face of the outer walls: draw it around all rooms");
@@ -172,6 +180,7 @@ void add_walls(FloorModel& model, NodeNames& names) {
     for (const int c : part.cells) {
       const PlanCell& cell = model.plan.cells[c];
       cells.push_back({cell.triangles, {{-model.finish_m, model.height_m}}});
+      wall.facade = wall.facade || (!cell.touching.empty() && cell.touching.front() == kOutside);
       if (cell.opening < 0) continue;
       ModelOpening& opening = model.openings[cell.opening];
       opening.wall = static_cast<int>(model.walls.size());
@@ -258,6 +267,14 @@ FloorModel build_model(const FittedFloor& fitted, const BuildOptions& options) {
   add_walls(model, names);
   add_slab(model);
   return model;
+}
+
+void check_plan(const FittedFloor& given, const std::string& room_kind) {
+  FloorModel model;
+  model.fitted = given;
+  NodeNames names;
+  add_rooms(model, names, room_kind);
+  for (const PlanFault& fault : partition(plan_input(model)).faults) refuse(model, fault, room_kind);
 }
 
 }  // namespace gramap

@@ -22,6 +22,26 @@ FittedRoom given(const std::string& id, const std::string& name, const std::stri
   return room;
 }
 
+/// The space that a room lies in, and its place along the space's reference line.
+void put_into_space(FittedRoom& room, const std::vector<Space>& spaces) {
+  for (const Space& space : spaces) {
+    if (space.outline.empty() || !contains(space.outline, centroid(room.outline))) continue;
+    const Vec2 along = (space.end - space.start).normalized(), left(-along.y(), along.x());
+    double start = 1e300, end = -1e300, near = 1e300, far = -1e300;
+    for (const Vec2& p : room.outline) {
+      start = std::min(start, (p - space.start).dot(along));
+      end = std::max(end, (p - space.start).dot(along));
+      near = std::min(near, (p - space.start).dot(left));
+      far = std::max(far, (p - space.start).dot(left));
+    }
+    room.space = space.id;
+    room.start_m = start;
+    room.width_m = end - start;
+    room.depth_m = far - near;
+    return;
+  }
+}
+
 }  // namespace
 
 FittedFloor floor_of_truth(const FloorGroundTruth& floor, const FloorTruth& truth) {
@@ -46,6 +66,7 @@ FittedFloor floor_of_truth(const FloorGroundTruth& floor, const FloorTruth& trut
       if (place == fitted.fixed.end())
         place = fitted.rooms.insert(fitted.rooms.end(), given(room.id, room.name, room.type, room.outline));
     }
+    put_into_space(*place, floor.spaces);
     place->height_m = std::max(0.0, room.ceiling_m - room.floor_m);
   }
   const auto with_room = [&](const std::string& id, const auto& use) {

@@ -150,9 +150,9 @@ class Export {
 
   int add_wall(const FloorModel& model, const ModelWall& wall, int floor) {
     const std::string name = names_.name(prefix_ + wall.node);
-    const Material material = wall.type == "mass"    ? Material::mass
-                              : wall.type == "outer" ? Material::wall_outer
-                                                     : Material::wall_inner;
+    const Material material = wall.type == "mass" ? Material::mass
+                              : wall.facade       ? Material::wall_outer
+                                                  : Material::wall_inner;
     json extras = thing(wall.node, "IfcWall", name);
     extras["gramap"] = {{"kind", "wall"},         {"id", wall.node},       {"type", wall.type},
                         {"origin", "given"},      {"between", wall.sides}, {"thickness", wall.thickness_m},

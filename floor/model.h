@@ -30,6 +30,7 @@ struct ModelWall {
   std::string node;
   std::string type;                ///< "inner", "outer", "junction", "mass"
   std::vector<std::string> sides;  ///< ids of the rooms on both sides, "outside"
+  bool facade = false;             ///< part of it is seen from outside
   double thickness_m = 0;
   double length_m = 0;
   Mesh solid;
@@ -82,5 +83,9 @@ struct BuildOptions {
 /// Builds the model. Throws InputError when the floor's own geometry cannot be built (a self-crossing
 /// outline, a hallway that touches it, overlapping rooms), naming the parts and the place.
 FloorModel build_model(const FittedFloor& fitted, const BuildOptions& options = {});
+
+/// The part of build_model that can be told before a fit: throws InputError when hallways, fixed rooms and
+/// `rooms` (named `room_kind` in messages) overlap, touch the outline or lie outside it.
+void check_plan(const FittedFloor& given, const std::string& room_kind);
 
 }  // namespace gramap

@@ -11,7 +11,7 @@ const std::vector<PaletteEntry>& palette() {
       {"floor_derived", {0.58, 0.70, 0.84, 1}, 0.8},
       {"floor_hallway", {0.72, 0.72, 0.70, 1}, 0.6},
       {"floor_fixed", {0.60, 0.58, 0.56, 1}, 0.8},
-      {"ceiling", {0.96, 0.96, 0.95, 1}},
+      {"ceiling", {0.90, 0.90, 0.89, 1}},
       {"wall_inner", {0.93, 0.91, 0.87, 1}},
       {"wall_outer", {0.82, 0.77, 0.70, 1}},
       {"mass", {0.45, 0.44, 0.43, 1}},

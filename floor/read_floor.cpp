@@ -120,7 +120,9 @@ FloorGroundTruth read_floor(const std::filesystem::path& path) {
       if (!floor.outline.empty())
         fail(file, feature, "the floor has a second outline",
              "keep one outline: the outer face of the outer walls");
-      floor.outline = ring_of(file, feature);
+      floor.outline = ring_of(file, feature, true);
+      const std::vector<Polygon>& rings = feature.parts.front();
+      floor.courtyards.assign(rings.begin() + 1, rings.end());
     } else if (kind == "hallway") {
       const std::string id = required(file, feature, "id");
       claim(rooms, id, file, feature);

@@ -40,7 +40,7 @@ std::string escaped(const std::string& text) {
 }
 
 constexpr char kStyle[] = R"(
-text { font-family: "Helvetica Neue", Arial, "Liberation Sans", sans-serif; fill: #222; text-anchor: middle }
+text { font-family: "Helvetica Neue", Arial, "Liberation Sans", sans-serif; fill: #222; text-anchor: middle; paint-order: stroke; stroke: #ffffffb0; stroke-width: 0.5 }
 .room { fill: #f6efe2 } .derived { fill: #dfe9f4 } .hallway { fill: #eeeeec } .fixed { fill: #e4e2df }
 .hatch { fill: url(#derived-hatch) }
 .wall { fill: #33322f; fill-rule: evenodd } .mass { fill: #8d8b87; fill-rule: evenodd }

@@ -17,11 +17,16 @@ json position(const Vec2& point) {
   return json::array({rounded(point.x()), rounded(point.y())});
 }
 
-json polygon(const Polygon& ring) {
-  json points = json::array();
-  for (const Vec2& point : ring) points.push_back(position(point));
-  if (!ring.empty()) points.push_back(position(ring.front()));
-  return {{"type", "Polygon"}, {"coordinates", json::array({points})}};
+json polygon(const Polygon& ring, const std::vector<Polygon>& holes = {}) {
+  const auto closed = [](const Polygon& points) {
+    json list = json::array();
+    for (const Vec2& point : points) list.push_back(position(point));
+    if (!points.empty()) list.push_back(position(points.front()));
+    return list;
+  };
+  json rings = json::array({closed(ring)});
+  for (const Polygon& hole : holes) rings.push_back(closed(hole));
+  return {{"type", "Polygon"}, {"coordinates", rings}};
 }
 
 json line(const Vec2& a, const Vec2& b) {
@@ -33,7 +38,8 @@ json feature(json properties, json geometry) {
 }
 
 void add_floor(const FloorGroundTruth& floor, std::vector<json>& features) {
-  if (!floor.outline.empty()) features.push_back(feature({{"kind", "outline"}}, polygon(floor.outline)));
+  if (!floor.outline.empty())
+    features.push_back(feature({{"kind", "outline"}}, polygon(floor.outline, floor.courtyards)));
   for (const Hallway& hallway : floor.hallways)
     features.push_back(
         feature({{"kind", "hallway"}, {"id", hallway.id}, {"name", hallway.name}}, polygon(hallway.outline)));

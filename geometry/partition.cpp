@@ -357,22 +357,9 @@ Partition partition(const PlanInput& input) {
 }
 
 std::vector<Polygon> outline_around(const std::vector<Polygon>& rooms, double wall_m) {
-  std::vector<Polygon> grown;
-  for (const Polygon& room : rooms) {
-    Polygon ring;
-    const std::size_t size = room.size();
-    for (std::size_t i = 0; i < size; ++i) {
-      const Vec2 before = (room[i] - room[(i + size - 1) % size]).normalized(),
-                 after = (room[(i + 1) % size] - room[i]).normalized();
-      const Vec2 out_before(before.y(), -before.x()), out_after(after.y(), -after.x());
-      // The corner of the two edges moved outward; at sharp corners no farther than three walls.
-      const Vec2 sum = out_before + out_after;
-      ring.push_back(room[i] + sum * std::min(wall_m * 2 / std::max(sum.squaredNorm(), 1e-12),
-                                              3 * wall_m / std::max(sum.norm(), 1e-12)));
-    }
-    grown.push_back(std::move(ring));
-  }
-  const Overlay together = overlay(welded(std::move(grown), 1e-4), {});
+  std::vector<Polygon> wide;
+  for (const Polygon& room : rooms) wide.push_back(grown(room, wall_m));
+  const Overlay together = overlay(welded(std::move(wide), 1e-4), {});
   std::vector<Triangle> triangles;
   for (const Overlay::Cell& cell : together.cells)
     triangles.insert(triangles.end(), cell.triangles.begin(), cell.triangles.end());

@@ -119,4 +119,17 @@ OrientedBox oriented_box(const Polygon& points) {
   return best;
 }
 
+Polygon grown(const Polygon& ring, double distance_m) {
+  Polygon result;
+  const std::size_t size = ring.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec2 before = (ring[i] - ring[(i + size - 1) % size]).normalized();
+    const Vec2 after = (ring[(i + 1) % size] - ring[i]).normalized();
+    const Vec2 sum = Vec2(before.y(), -before.x()) + Vec2(after.y(), -after.x());
+    const double mitre = 2 / std::max(sum.squaredNorm(), 1e-12), most = 3 / std::max(sum.norm(), 1e-12);
+    result.push_back(ring[i] + sum * distance_m * std::min(mitre, most));
+  }
+  return result;
+}
+
 }  // namespace gramap

@@ -35,6 +35,11 @@ struct OrientedBox {
 };
 OrientedBox oriented_box(const Polygon& points);
 
+/// The counter-clockwise ring with every edge moved outward by `distance_m` (inward when negative), corners
+/// mitred, sharp ones cut off at three times the distance. Nothing looks after edges that vanish or meet
+/// others.
+Polygon grown(const Polygon& ring, double distance_m);
+
 /// Convex hull, counter-clockwise (Andrew's monotone chain).
 Polygon convex_hull(Polygon points);
 

@@ -107,14 +107,14 @@
   const box = new THREE.Box3().setFromObject(scene);
   const middle = box.getCenter(new THREE.Vector3()), extent = box.getSize(new THREE.Vector3());
   const radius = extent.length() / 2;
-  scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.72));
-  const sun = new THREE.DirectionalLight(0xfff4e2, 0.5);
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.7));
+  const sun = new THREE.DirectionalLight(0xfff4e2, 0.4);
   sun.position.copy(middle).add(new THREE.Vector3(0.45, 1, 0.3).multiplyScalar(2 * radius));
   sun.target.position.copy(middle);
   sun.castShadow = true;
   sun.shadow.mapSize.set(4096, 4096);
   Object.assign(sun.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: radius / 10, far: 5 * radius });
-  sun.shadow.bias = -0.0012;
+  sun.shadow.bias = -0.0002;
   scene.add(sun, sun.target);
 
   const selection = new THREE.Group();
