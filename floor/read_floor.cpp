@@ -122,7 +122,7 @@ FloorGroundTruth read_floor(const std::filesystem::path& path) {
              "keep one outline: the outer face of the outer walls");
       floor.outline = ring_of(file, feature, true);
       const std::vector<Polygon>& rings = feature.parts.front();
-      floor.courtyards.assign(rings.begin() + 1, rings.end());
+      for (std::size_t i = 1; i < rings.size(); ++i) floor.courtyards.push_back(simplified(rings[i]));
     } else if (kind == "hallway") {
       const std::string id = required(file, feature, "id");
       claim(rooms, id, file, feature);

@@ -31,6 +31,11 @@ void check_plan(const FloorModel& model, VerifyReport& report) {
          model.rooms[fault.a].node + (overlap ? " overlaps another room" : " is not within the outline"),
          at(fault.at)});
   }
+  std::vector<Triangle> parts;
+  for (const PlanCell& cell : model.plan.cells)
+    parts.insert(parts.end(), cell.triangles.begin(), cell.triangles.end());
+  if (const auto stray = stray_border(model.plan.points, parts, model.outline, 1e-6))
+    report.faults.push_back({"gap", "rooms and walls do not close up", at(*stray)});
   report.totals.area_exact = model.plan.exact && areas_exact(model.plan);
   if (!report.totals.area_exact)
     report.faults.push_back(

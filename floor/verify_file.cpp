@@ -135,10 +135,17 @@ class Verification {
     }
     report_.totals.walls_m2 += walls;
     double outline = 0;
+    std::vector<Polygon> rings;
     const json about = json::parse(floor.extras_json);
     if (about.contains("outline"))
-      for (const json& ring : about["outline"]) outline += signed_area(plan_points(ring));
+      for (const json& ring : about["outline"]) {
+        rings.push_back(plan_points(ring));
+        outline += signed_area(rings.back());
+      }
     report_.totals.outline_m2 += outline;
+    if (const auto stray = stray_border(sheet.points, sheet.triangles, rings, 1e-3))
+      fault("gap", "rooms and walls of " + floor.node + " do not close up: some overlap or leave a gap",
+            Vec3(stray->x(), stray->y(), 0));
     const bool tiled = tiles_exactly(sheet.points, sheet.triangles);
     double enclosed = 0, border_length = 0;
     for (const Polygon& ring : border(sheet.points, sheet.triangles)) {

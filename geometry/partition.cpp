@@ -415,4 +415,14 @@ bool areas_exact(const Partition& partition) {
   return tiles_exactly(partition.points, triangles);
 }
 
+std::optional<Vec2> stray_border(const std::vector<Vec2>& points, const std::vector<Triangle>& triangles,
+                                 const std::vector<Polygon>& outline, double tolerance_m) {
+  for (const Polygon& ring : border(points, triangles))
+    for (const Vec2& p : ring)
+      if (std::none_of(outline.begin(), outline.end(),
+                       [&](const Polygon& o) { return distance_to_border(o, p) <= tolerance_m; }))
+        return p;
+  return std::nullopt;
+}
+
 }  // namespace gramap

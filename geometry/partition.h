@@ -9,7 +9,7 @@
 // rooms (or a room and the outside) is a wall between these; the others are junctions.
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -101,5 +101,11 @@ std::vector<Polygon> border(const std::vector<Vec2>& points, const std::vector<T
 /// True when the areas of the cells' triangles add up to the area that their common border encloses, and to
 /// the area that `outline` encloses, in exact arithmetic, and every triangle is positive.
 bool areas_exact(const Partition& partition);
+
+/// The first corner of the triangles' border that does not lie on one of the `outline` rings, within the
+/// tolerance: a gap or an overlap in what should fill the outline. None, when triangles that are all
+/// counter-clockwise and whose area is the outline's fill it exactly once.
+std::optional<Vec2> stray_border(const std::vector<Vec2>& points, const std::vector<Triangle>& triangles,
+                                 const std::vector<Polygon>& outline, double tolerance_m);
 
 }  // namespace gramap

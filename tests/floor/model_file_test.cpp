@@ -146,7 +146,7 @@ TEST_CASE("what is wrong with a model file is found") {
   }
   SUBCASE("a room that was moved") {
     for (Vec3& p : node("room_101_floor").mesh.points) p.x() += 0.1;
-    CHECK(has(verify_file(model), "overlap"));
+    CHECK(has(verify_file(model), "gap"));
   }
   SUBCASE("a triangle that is missing") {
     node("wall_101_102").mesh.triangles.pop_back();
