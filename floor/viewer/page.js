@@ -114,7 +114,7 @@
   sun.castShadow = true;
   sun.shadow.mapSize.set(4096, 4096);
   Object.assign(sun.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: radius / 10, far: 5 * radius });
-  sun.shadow.bias = -0.0002;
+  sun.shadow.bias = -0.0004;
   scene.add(sun, sun.target);
 
   const selection = new THREE.Group();
@@ -132,7 +132,7 @@
   if (renderer) {
     renderer.gammaOutput = true;
     renderer.shadowMap.enabled = true;
-    renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    renderer.shadowMap.type = THREE.PCFShadowMap;
     renderer.shadowMap.autoUpdate = false;
     $('view').appendChild(renderer.domElement);
   }
