@@ -104,6 +104,7 @@ bool goes_first(const Candidate& a, const Candidate& b, const std::vector<ModelR
 PlacedOpenings place_openings(const std::vector<ModelRoom>& rooms, const Partition& plan) {
   PlacedOpenings result;
   const auto set_aside = [&](const Candidate& c, const std::string& reason) {
+    if (c.opening.origin == Origin::derived) return;  // nobody has seen it
     result.set_aside.push_back({described(rooms[c.room], c.opening), reason});
   };
   std::vector<std::vector<int>> walls_of_room(rooms.size());
@@ -123,6 +124,9 @@ PlacedOpenings place_openings(const std::vector<ModelRoom>& rooms, const Partiti
       o.head_m = std::min(o.head_m, rooms[room].height_m - kLintel_m);
       if (candidate.wall < 0)
         set_aside(candidate, "no wall of the room is there");
+      else if (o.kind == "window" && o.origin == Origin::derived &&
+               plan.walls[candidate.wall].side_b != kOutside)
+        continue;  // rules know of façades only
       else if (!(o.head_m - o.sill_m >= kLeastHeight_m))
         set_aside(candidate, "it has no height");
       else if (!clip(candidate, plan))
