@@ -9,7 +9,6 @@
 #include "floor/gltf.h"
 #include "floor/model.h"
 #include "floor/room_table.h"
-#include "floor/usual_openings.h"
 #include "floor/verify.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
@@ -44,9 +43,7 @@ int run(const Options& options) {
     throw InputError({options.inputs.floor},
                      fitted.set_aside.front().what + ": " + fitted.set_aside.front().reason,
                      "leave --strict away to go on without it");
-  add_usual_openings(fitted, inputs.rules);
   const FloorModel model = build_model(fitted);
-  fitted.set_aside.insert(fitted.set_aside.end(), model.set_aside.begin(), model.set_aside.end());
   const VerifyReport report = verify(model);
   FILE* const out = options.output == "-" ? stderr : stdout;
   std::fputs(room_table(fitted).c_str(), out);
