@@ -11,6 +11,7 @@ namespace {
 constexpr double kDepthShare = 0.9;       // rooms that are as deep as their space
 constexpr double kDepthSd_m = 0.1;        // their spread
 constexpr double kThirdDoorShare = 0.2;   // of rooms with n doors, those that have one more
+constexpr double kLeastPlaceSd_m = 0.01;  // nobody builds doors to better than that
 constexpr double kSmallestSlack_m = 0.1;  // a door in a room of its own width still has some play
 
 double gauss(double x, double mean, double sd) {
@@ -119,6 +120,7 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
   std::sort(doors_.begin(), doors_.end(),
             [](const DoorEvidence& a, const DoorEvidence& b) { return a.centre_m < b.centre_m; });
   for (DoorEvidence& door : doors_) door.sigma_m = std::sqrt(door.sigma_m * door.sigma_m + h * h / 12);
+  for (const DoorEvidence& door : doors_) door_tables_.push_back(door_tables(door));
   for (int n = 0; n <= grid.cells; ++n) {
     const double edge = n == grid.cells ? 1e9 : n == 0 ? -1e9 : grid.position_m(n) - 0.5 * grid.wall_m;
     int before = 0;
@@ -197,22 +199,73 @@ bool Evidence::belongs(const PreparedEvidence& e, int cell, int first, int strid
   return any;
 }
 
-double Evidence::door_place(const DoorEvidence& door, const RoomType* type, const Extent& room) const {
-  const double half = 0.5 * door.width_m;
-  const double fits = cumulative((door.centre_m - half - room.start_m) / door.sigma_m) *
-                      cumulative((room.end_m - half - door.centre_m) / door.sigma_m);
-  if (type == nullptr || !type->door || type->door->places.empty())
-    return fits / std::max(room.width_m() - door.width_m, kSmallestSlack_m);
-  double density = 0;
-  double weights = 0;
-  for (const DoorHabit::Place& place : type->door->places) {
-    const double offset =
-        place.from_end ? room.end_m - door.centre_m - half : door.centre_m - half - room.start_m;
-    const double sd = std::hypot(std::max(place.offset.sd_m, 0.01), door.sigma_m);
-    density += place.weight * gauss(offset, place.offset.mean_m, sd);
-    weights += place.weight;
+template <class Function>
+Evidence::WindowTable Evidence::tabulate(double least_m, double most_m, double before, double after,
+                                         Function f) const {
+  WindowTable table;
+  table.before = before;
+  table.after = after;
+  table.first = std::clamp(to_cell(least_m, grid_) - 1, 0, grid_.cells + 1);
+  const int last = std::clamp(to_cell(most_m, grid_) + 1, -1, grid_.cells);
+  for (int cell = table.first; cell <= last; ++cell) table.values.push_back(f(grid_.position_m(cell)));
+  return table;
+}
+
+Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
+  const double near_m = door.centre_m - 0.5 * door.width_m;
+  const double far_m = door.centre_m + 0.5 * door.width_m;
+  const double reach_m = kGateSigmas * door.sigma_m;
+  DoorTables tables;
+  tables.starts_before = tabulate(near_m - reach_m, near_m + reach_m, 1, 0, [&](double start_m) {
+    return cumulative((near_m - start_m) / door.sigma_m);
+  });
+  // The room ends a wall before the next one starts.
+  tables.ends_after =
+      tabulate(far_m - reach_m + grid_.wall_m, far_m + reach_m + grid_.wall_m, 0, 1,
+               [&](double next_m) { return cumulative((next_m - grid_.wall_m - far_m) / door.sigma_m); });
+  for (const RoomType& type : rules_.rooms) {
+    WindowTable& from_start = tables.from_start.emplace_back();
+    WindowTable& from_end = tables.from_end.emplace_back();
+    if (!type.door || type.door->places.empty()) continue;
+    double weights = 0;
+    double reach = 0;
+    double farthest = 0;
+    for (const DoorHabit::Place& place : type.door->places) {
+      weights += place.weight;
+      reach = std::max(reach,
+                       kGateSigmas * std::hypot(std::max(place.offset.sd_m, kLeastPlaceSd_m), door.sigma_m));
+      farthest = std::max(farthest, std::abs(place.offset.mean_m));
+    }
+    const auto density = [&](bool end, double offset_m) {
+      double sum = 0;
+      for (const DoorHabit::Place& place : type.door->places)
+        if (place.from_end == end)
+          sum += place.weight / weights *
+                 gauss(offset_m, place.offset.mean_m,
+                       std::hypot(std::max(place.offset.sd_m, kLeastPlaceSd_m), door.sigma_m));
+      return sum;
+    };
+    from_start = tabulate(near_m - farthest - reach, near_m + farthest + reach, 0, 0,
+                          [&](double start_m) { return density(false, near_m - start_m); });
+    from_end = tabulate(far_m + grid_.wall_m - farthest - reach, far_m + grid_.wall_m + farthest + reach, 0,
+                        0, [&](double next_m) { return density(true, next_m - grid_.wall_m - far_m); });
   }
-  return fits * density / weights;
+  return tables;
+}
+
+/// Density of the door's place in a room of the type (-1: no habit) that takes [first_cell, last_cell).
+double Evidence::door_place(std::size_t door, int type, int first_cell, int last_cell) const {
+  const DoorTables& tables = door_tables_[door];
+  const double fits = tables.starts_before.at(first_cell) * tables.ends_after.at(last_cell);
+  if (fits <= 0) return 0;
+  const bool has_habit = type >= 0 && rules_.rooms[static_cast<std::size_t>(type)].door &&
+                         !rules_.rooms[static_cast<std::size_t>(type)].door->places.empty();
+  if (!has_habit) {
+    const double width_m = grid_.width_m(last_cell - first_cell);
+    return fits / std::max(width_m - doors_[door].width_m, kSmallestSlack_m);
+  }
+  return fits * (tables.from_start[static_cast<std::size_t>(type)].at(first_cell) +
+                 tables.from_end[static_cast<std::size_t>(type)].at(last_cell));
 }
 
 double Evidence::doors(int type, int first_cell, int last_cell) const {
@@ -228,14 +281,13 @@ double Evidence::doors(int type, int first_cell, int last_cell) const {
 
   const double one = 1 - options_.doorless_share - options_.second_door_share;
   const double lone_false = options_.false_door_share / length_m;
-  const RoomType* room_type = type < 0 ? nullptr : &rules_.rooms[static_cast<std::size_t>(type)];
   double all_false = none;
   double one_real = 0;
   double all_real = options_.second_door_share;
   for (std::size_t i = first; i < last; ++i) {
-    one_real = one_real * lone_false + all_false / none * door_place(doors_[i], room_type, room);
+    one_real = one_real * lone_false + all_false / none * door_place(i, type, first_cell, last_cell);
     all_false *= lone_false;
-    all_real *= door_place(doors_[i], nullptr, room);
+    all_real *= door_place(i, -1, first_cell, last_cell);
     if (i >= first + 2) all_real *= kThirdDoorShare;
   }
   return all_false + one * one_real + (last - first >= 2 ? all_real : 0);

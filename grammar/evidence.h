@@ -88,7 +88,32 @@ class Evidence {
   bool has_doors() const { return !visible_.empty(); }
 
  private:
-  double door_place(const DoorEvidence& door, const RoomType* type, const Extent& room) const;
+  /// A function of the cell that varies within a window only; made once, asked for every room tried.
+  struct WindowTable {
+    int first = 0;
+    std::vector<double> values;
+    double before = 0;
+    double after = 0;
+    double at(int cell) const {
+      if (cell < first) return before;
+      const auto i = static_cast<std::size_t>(cell - first);
+      return i < values.size() ? values[i] : after;
+    }
+  };
+  /// One door's terms, those of the room's start (by its first cell) and those of its end (by the next room's
+  /// first cell).
+  struct DoorTables {
+    WindowTable starts_before;  // probability that the door lies wholly behind the room's start
+    WindowTable ends_after;
+    std::vector<WindowTable>
+        from_start;  // by type: density of the place, of the places reckoned from the start
+    std::vector<WindowTable> from_end;
+  };
+
+  template <class Function>
+  WindowTable tabulate(double least_m, double most_m, double before, double after, Function f) const;
+  DoorTables door_tables(const DoorEvidence& door) const;
+  double door_place(std::size_t door, int type, int first_cell, int last_cell) const;
 
   const RuleSet& rules_;
   FitOptions options_;
@@ -97,6 +122,7 @@ class Evidence {
   double width_range_m_ = 0;
   std::vector<PreparedEvidence> rooms_;
   std::vector<DoorEvidence> doors_;
+  std::vector<DoorTables> door_tables_;
   std::vector<int> doors_before_;  // [cell]: doors whose centre lies before the cell's edge
   std::vector<double> visible_;  // [cell]: metres of visible hallway wall before the cell's edge; empty: none
 };
