@@ -6,11 +6,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/perceive_table.h"
 #include "app/png.h"
 #include "app/verbs.h"
+#include "floor/ground_truth.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "perception/debug.h"
@@ -25,7 +28,7 @@ struct Options {
   std::vector<std::string> folders;
   std::string output = "-";
   std::string unit, up = "z";
-  std::string debug;
+  std::string debug, truth;
   bool verbose = false;
   std::string images;
   PerceptionOptions perception;
@@ -82,8 +85,11 @@ int run(const Options& options) {
     perception.on_stage = [](const std::string& stage, double seconds) {
       std::fprintf(stderr, "  %-12s %8.1f ms\n", stage.c_str(), seconds * 1e3);
     };
+  std::optional<FloorTruth> truth;
+  if (!options.truth.empty()) truth = read_truth(options.truth);
+  std::vector<RoomObservation> perceived;
   const bool many = rooms.size() > 1;
-  if (many && options.output == "-")
+  if (many && options.output == "-" && !truth)
     throw CLI::ValidationError("-o", "several rooms need a folder to write to: -o FOLDER");
   std::size_t bad = 0;
   for (const fs::path& folder : rooms) {
@@ -99,12 +105,15 @@ int run(const Options& options) {
       const Perception found = perceive(registered(scans), scans.room, perception);
       const RoomObservation& room = found.observation;
       if (!options.images.empty()) write_wall_images(options.images, found);
+      if (truth) perceived.push_back(room);
       fs::path output = options.output;
       if (many) {
-        fs::create_directories(output);
-        output /= room.room + ".json";
+        std::error_code error;
+        if (output != "-") fs::create_directories(output, error);
+        if (error) throw InputError({output.string()}, "the folder cannot be made: " + error.message());
+        if (output != "-") output /= room.room + ".json";
       }
-      write_file(output, to_json(room));
+      if (output != "-" || !truth) write_file(output, to_json(room));
       std::fprintf(stderr,
                    "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls, %zu doors "
                    "and windows, %zu pieces of furniture\n",
@@ -118,6 +127,7 @@ int run(const Options& options) {
       ++bad;
     }
   }
+  if (truth) std::fputs(accuracy_table(perceived, *truth).c_str(), stdout);
   if (bad == rooms.size()) return kInputFault;
   return bad ? kSetAside : kDone;
 }
@@ -152,6 +162,8 @@ Verb declare_perceive(CLI::App& gramap) {
       "through, red: not seen) and depth");
   verb->add_flag("!--no-openings", options->perception.find_openings, "Do not look for doors and windows");
   verb->add_flag("!--no-furniture", options->perception.find_furniture, "Do not look for furniture");
+  verb->add_option("--truth", options->truth,
+                   "A truth.geojson, or the floor folder with one: print how far each room is from it");
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
   return [options] { return run(*options); };
 }
