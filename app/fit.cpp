@@ -66,6 +66,7 @@ int run(const Options& options) {
 
 Verb declare_fit(CLI::App& gramap) {
   auto options = std::make_shared<Options>();
+  options->inputs.fit.space.alternatives = 2;  // so that `explain` can name a runner-up
   CLI::App* verb = gramap.add_subcommand(
       "fit", "Fit a floor: scans, rules and a floor file in, a complete glTF floor out");
   declare_inputs(*verb, options->inputs);

@@ -116,6 +116,8 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     room.name = room.id;
     fitted.rooms.push_back(room);
   }
+  for (const Reinterpreted& note : fit.reinterpreted)
+    fitted.floor.remarks.push_back(problem.rooms[static_cast<std::size_t>(note.evidence)].id + ": " + note.how);
   for (const SetAside& aside : fit.set_aside)
     fitted.set_aside.push_back({problem.rooms[static_cast<std::size_t>(aside.evidence)].id, aside.reason});
 }
