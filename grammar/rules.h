@@ -169,24 +169,6 @@ struct Background {
   double most_m = 12;
 };
 
-/// Productions that grow a hallway network into an outline (floors whose hallways are not given).
-struct HallwayGrammar {
-  struct Segment {
-    enum class Kind { straight, branch_left, branch_right, end, symbol };
-    Kind kind = Kind::straight;
-    Normal length;
-    int symbol = 0;
-  };
-  struct Production {
-    int symbol = 0;
-    std::vector<Segment> body;
-    double probability = 1;
-  };
-  std::vector<std::string> symbols;  ///< the axiom first
-  std::vector<Production> productions;
-  Normal width;
-};
-
 struct RuleSet {
   std::string name;
   double inner_wall_m = 0.1;
@@ -196,7 +178,6 @@ struct RuleSet {
   std::vector<std::string> symbols;  ///< index 0 is the start symbol
   std::vector<Rule> rules;
   Background background;
-  std::optional<HallwayGrammar> hallways;
 };
 
 }  // namespace gramap
