@@ -96,6 +96,7 @@ class Builder {
     const WallFaces faces(rings_, wall_on_left, input_.thickest_wall_m);
     std::vector<Cut> cuts = faces.corner_cuts();
     opening_cuts(faces, cuts);
+    share_landings(cuts, 1e-3);
     overlay_ = overlay(rings_, cuts);
     result_.points = overlay_.points;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace gramap {
@@ -11,6 +12,8 @@ namespace {
 constexpr double kBend_rad = 0.5;
 /// A cut that lands this near a corner ends in the corner: no slivers.
 constexpr double kSnap_m = 0.005;
+/// The same for openings, which stay where they are but for rounding.
+constexpr double kTouch_m = 1e-4;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -82,8 +85,9 @@ std::optional<Cut> WallFaces::shoot(const PointOnRing& from, const Vec2& directi
   if (hit == nullptr) return std::nullopt;
   const Vec2 along = hit->b - hit->a;
   if (direction.dot(left_of(along)) >= 0) return std::nullopt;  // hit from behind: not across a wall
-  if (snap && hit_t * along.norm() < kSnap_m) hit_t = 0;
-  if (snap && (1 - hit_t) * along.norm() < kSnap_m) hit_t = 1;
+  const double near_m = snap ? kSnap_m : kTouch_m;
+  if (hit_t * along.norm() < near_m) hit_t = 0;
+  if ((1 - hit_t) * along.norm() < near_m) hit_t = 1;
   PointOnRing to{hit->ring, hit->edge, wall_on_left_[hit->ring] ? hit_t : 1 - hit_t,
                  from.at + direction * nearest};
   // Along an axis the landing point is exact when it takes the edge's own coordinate.
@@ -92,6 +96,20 @@ std::optional<Cut> WallFaces::shoot(const PointOnRing& from, const Vec2& directi
   if (hit_t == 0) to.at = hit->a;
   if (hit_t == 1) to.at = hit->b;
   return Cut{from, to};
+}
+
+void share_landings(std::vector<Cut>& cuts, double within_m) {
+  std::vector<PointOnRing*> points;
+  for (Cut& cut : cuts) points.insert(points.end(), {&cut.from, &cut.to});
+  std::stable_sort(points.begin(), points.end(), [](const PointOnRing* a, const PointOnRing* b) {
+    return std::tie(a->ring, a->edge, a->t) < std::tie(b->ring, b->edge, b->t);
+  });
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const PointOnRing& last = *points[i - 1];
+    PointOnRing& point = *points[i];
+    if (last.ring == point.ring && last.edge == point.edge && (last.at - point.at).norm() < within_m)
+      point = last;
+  }
 }
 
 PointOnRing WallFaces::nearest(int ring, const Vec2& point) const {

@@ -42,4 +42,8 @@ class WallFaces {
   std::vector<Edge> edges_;
 };
 
+/// Makes cuts that end nearer to one another than this, on one edge, end in one point: two corners may aim at
+/// the same place, and rounding keeps them apart by less than any triangle can bear.
+void share_landings(std::vector<Cut>& cuts, double within_m);
+
 }  // namespace gramap
