@@ -2,7 +2,7 @@
 PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: build demo test test-release test-sanitized packages format format-check clean
+.PHONY: build demo test test-release test-sanitized test-sanitized-all packages format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
@@ -18,8 +18,15 @@ test-release:
 	cmake --build --preset release -j $(JOBS)
 	ctest --preset release
 
-# The same unit tests under the address and undefined-behaviour sanitizers.
+# Tests of the language and of the exact geometry under the address and undefined-behaviour sanitizers.
+SANITIZED = test_geometry test_grammar_language
 test-sanitized:
+	cmake --preset asan-ubsan
+	cmake --build --preset asan-ubsan -j $(JOBS) --target $(SANITIZED)
+	ctest --preset asan-ubsan -R '^(test_geometry|test_grammar_language)$$'
+
+# The same for every test: some minutes more.
+test-sanitized-all:
 	cmake --preset asan-ubsan
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	ctest --preset asan-ubsan
