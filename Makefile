@@ -2,7 +2,8 @@
 PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: build demo test test-release test-sanitized test-sanitized-all packages format format-check clean
+FUZZ_SECONDS ?= 60
+.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all packages format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
@@ -30,6 +31,13 @@ test-sanitized-all:
 	cmake --preset asan-ubsan
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	ctest --preset asan-ubsan
+
+# Every fuzzer for so long, two at a time; what they find lies in build/fuzz/fuzz/NAME/.
+fuzz: packages
+	scripts/install-packages packages-fuzz.txt
+	cmake --preset fuzz -DGRAMAP_FUZZ_SECONDS=$(FUZZ_SECONDS)
+	cmake --build --preset fuzz -j $(JOBS) --target fuzzers
+	ctest --preset fuzz
 
 packages:
 	scripts/install-packages
