@@ -3,7 +3,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 FUZZ_SECONDS ?= 60
-.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all packages format format-check clean
+.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all packages deb format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
@@ -41,6 +41,14 @@ fuzz: packages
 
 packages:
 	scripts/install-packages
+
+# The Debian packages, in build/: gramap_*.deb (the command) and libgramap-dev_*.deb (for find_package(gramap)).
+deb: packages
+	scripts/install-packages packages-deb.txt
+	cmake --preset package
+	cmake --build --preset package -j $(JOBS)
+	cd build/package && cpack -B .. && rm -rf ../_CPack_Packages
+	ls -l build/*.deb
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -44,14 +44,14 @@ bool is_held_out(const Arguments& arguments, int building) {
   return random.chance(arguments.held_out);
 }
 
-std::vector<KnownRoom> simulated_building(const Arguments& arguments, int building) {
+std::vector<TrainingRoom> simulated_building(const Arguments& arguments, int building) {
   const std::uint64_t seed = seed_for(arguments.seed, "building " + std::to_string(building));
   return known_rooms(random_building(seed), random_conditions(seed), building);
 }
 
 using Scores = std::map<std::string, Score>;
 
-Scores score_rooms(const Task& task, const Forest& forest, const std::vector<KnownRoom>& rooms) {
+Scores score_rooms(const Task& task, const Forest& forest, const std::vector<TrainingRoom>& rooms) {
   std::vector<std::vector<std::pair<std::string, Score>>> each(rooms.size());
   tbb::parallel_for(std::size_t{0}, rooms.size(),
                     [&](std::size_t i) { each[i] = task.score(rooms[i], forest); });
@@ -99,9 +99,9 @@ void print_importance(const Forest& forest, const std::vector<Sample>& samples, 
 Forest trained(const Task& task, const Arguments& arguments) {
   std::vector<Sample> train, held_out;
   Scores scores;
-  std::vector<KnownRoom> held_out_rooms;
+  std::vector<TrainingRoom> held_out_rooms;
   for (int building = 0; building < arguments.buildings; ++building) {
-    std::vector<KnownRoom> rooms = simulated_building(arguments, building);
+    std::vector<TrainingRoom> rooms = simulated_building(arguments, building);
     std::vector<std::vector<Sample>> each(rooms.size());
     tbb::parallel_for(std::size_t{0}, rooms.size(), [&](std::size_t i) { each[i] = task.samples(rooms[i]); });
     const bool apart = is_held_out(arguments, building);
@@ -124,9 +124,9 @@ Forest trained(const Task& task, const Arguments& arguments) {
 
 /// The scans of a floor whose truth is known, perceived as any other; rooms that cannot be perceived count as
 /// rooms in which nothing was found.
-std::vector<KnownRoom> perceived_floor(const fs::path& floor) {
+std::vector<TrainingRoom> perceived_floor(const fs::path& floor) {
   const Building building = building_of(read_truth(floor));
-  std::vector<KnownRoom> rooms(building.rooms.size());
+  std::vector<TrainingRoom> rooms(building.rooms.size());
   tbb::parallel_for(std::size_t{0}, rooms.size(), [&](std::size_t i) {
     const BuildingRoom& room = building.rooms[i];
     if (!fs::exists(floor / "scans" / room.id)) return;
@@ -140,7 +140,7 @@ std::vector<KnownRoom> perceived_floor(const fs::path& floor) {
       std::fprintf(stderr, "%s: %s\n", room.id.c_str(), error.what());
     }
   });
-  std::erase_if(rooms, [](const KnownRoom& known) { return known.truth.id.empty(); });
+  std::erase_if(rooms, [](const TrainingRoom& known) { return known.truth.id.empty(); });
   return rooms;
 }
 

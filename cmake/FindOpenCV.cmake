@@ -1,11 +1,29 @@
 # OpenCV's core, imgproc and ml. Debian's OpenCVConfig.cmake comes only with the full libopencv-dev; with the three small
 # -dev packages alone there are headers and libraries, and this finds them either way.
+# With GRAMAP_STATIC_OPENCV the archives are taken, and what they need: Debian's shared core pulls in Mesa and LLVM (220 MB)
+# for windows that gramap never opens.
 find_path(OpenCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(OpenCV_LIBRARIES)
-foreach(module core imgproc ml)
-  find_library(OpenCV_${module}_LIBRARY opencv_${module})
+if(GRAMAP_STATIC_OPENCV)
+  find_package(TBB REQUIRED)
+  find_package(ZLIB REQUIRED)
+endif()
+foreach(module ml imgproc core)
+  if(GRAMAP_STATIC_OPENCV)
+    find_library(OpenCV_static_${module}_LIBRARY libopencv_${module}.a)
+    set(OpenCV_${module}_LIBRARY ${OpenCV_static_${module}_LIBRARY})
+  else()
+    find_library(OpenCV_${module}_LIBRARY opencv_${module})
+  endif()
   list(APPEND OpenCV_LIBRARIES ${OpenCV_${module}_LIBRARY})
 endforeach()
+if(GRAMAP_STATIC_OPENCV)
+  foreach(needed lapack blas)  # the linker's own names of these come only with their -dev packages
+    find_library(OpenCV_${needed}_LIBRARY NAMES lib${needed}.so.3 ${needed} REQUIRED)
+    list(APPEND OpenCV_LIBRARIES ${OpenCV_${needed}_LIBRARY})
+  endforeach()
+  list(APPEND OpenCV_LIBRARIES TBB::tbb ZLIB::ZLIB ${CMAKE_DL_LIBS} -Wl,--defsym=glXGetProcAddressARB=0)
+endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenCV REQUIRED_VARS OpenCV_INCLUDE_DIR OpenCV_core_LIBRARY OpenCV_imgproc_LIBRARY OpenCV_ml_LIBRARY)

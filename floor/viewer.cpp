@@ -3,17 +3,13 @@
 #include <stdexcept>
 #include <string_view>
 
-// The page's parts are files of their own, taken into the program as they stand.
-#define GRAMAP_EMBED(name, file)                                                                         \
-  asm(".section .rodata\n" #name "_begin:\n.incbin \"" file "\"\n" #name "_end:\n.byte 0\n.previous\n"); \
-  extern "C" const char name##_begin[];                                                                  \
-  extern "C" const char name##_end[];
+#include "geometry/embedded.h"
 
-GRAMAP_EMBED(gramap_page_css, GRAMAP_VIEWER_DIR "/page.css")
-GRAMAP_EMBED(gramap_page_js, GRAMAP_VIEWER_DIR "/page.js")
-#ifdef GRAMAP_THREE_DIR
-GRAMAP_EMBED(gramap_three, GRAMAP_THREE_DIR "/three.min.js")
-GRAMAP_EMBED(gramap_orbit, GRAMAP_THREE_DIR "/examples/js/controls/OrbitControls.js")
+GRAMAP_EMBEDDED(page_css)
+GRAMAP_EMBEDDED(page_js)
+#ifdef GRAMAP_THREE
+GRAMAP_EMBEDDED(three)
+GRAMAP_EMBEDDED(three_orbit)
 #endif
 
 namespace gramap {
@@ -42,7 +38,7 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 bool viewer_built() {
-#ifdef GRAMAP_THREE_DIR
+#ifdef GRAMAP_THREE
   return true;
 #else
   return false;
@@ -51,11 +47,10 @@ bool viewer_built() {
 
 std::string viewer_page(const std::string& title, const std::string& glb,
                         const std::vector<std::string>& plans) {
-#ifdef GRAMAP_THREE_DIR
-  const auto part = [](const char* begin, const char* end) { return std::string(begin, end); };
+#ifdef GRAMAP_THREE
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
                      escaped(title) + "</title>\n<style>\n";
-  page += part(gramap_page_css_begin, gramap_page_css_end);
+  page += std::string(embedded_page_css());
   page += R"(</style>
 </head>
 <body>
@@ -76,9 +71,9 @@ std::string viewer_page(const std::string& title, const std::string& glb,
 <p id="frame"></p></div>
 <script type="application/octet-stream" id="model">)";
   page += base64(glb);
-  page += "</script>\n<script>\n" + part(gramap_three_begin, gramap_three_end) + "\n</script>\n<script>\n" +
-          part(gramap_orbit_begin, gramap_orbit_end) + "\n</script>\n<script>\n" +
-          part(gramap_page_js_begin, gramap_page_js_end) + "</script>\n</body>\n</html>\n";
+  page += "</script>\n<script>\n" + std::string(embedded_three()) + "\n</script>\n<script>\n" +
+          std::string(embedded_three_orbit()) + "\n</script>\n<script>\n" + std::string(embedded_page_js()) +
+          "</script>\n</body>\n</html>\n";
   return page;
 #else
   throw std::logic_error("the viewer was not built: " + title + std::to_string(glb.size() + plans.size()));

@@ -6,7 +6,8 @@
 
 namespace gramap {
 
-Coverage::Coverage(const Vec3& scanner, std::span<const Eigen::Vector3f> points) : bins_(kBins) {
+ScannerCoverage::ScannerCoverage(const Vec3& scanner, std::span<const Eigen::Vector3f> points)
+    : bins_(kBins) {
   std::vector<Bin> seen(kBins);
   std::vector<float> distances;
   distances.reserve(points.size());
@@ -33,12 +34,12 @@ Coverage::Coverage(const Vec3& scanner, std::span<const Eigen::Vector3f> points)
   reach_m_ = *nth;
 }
 
-int Coverage::bin_of(const Vec3& offset) {
+int ScannerCoverage::bin_of(const Vec3& offset) {
   const double turn = std::atan2(offset.y(), offset.x()) / (2 * std::numbers::pi) + 0.5;
   return std::clamp(static_cast<int>(turn * kBins), 0, kBins - 1);
 }
 
-bool Coverage::covers(const Vec3& offset) const {
+bool ScannerCoverage::covers(const Vec3& offset) const {
   const double distance = offset.norm();
   const Bin& bin = bins_[static_cast<std::size_t>(bin_of(offset))];
   const double sine = offset.z() / distance;

@@ -10,9 +10,9 @@ namespace gramap {
 
 /// For each few degrees of azimuth, the elevations between the lowest and the highest return, and the reach:
 /// hardly any return was farther.
-class Coverage {
+class ScannerCoverage {
  public:
-  Coverage(const Vec3& scanner, std::span<const Eigen::Vector3f> points);
+  ScannerCoverage(const Vec3& scanner, std::span<const Eigen::Vector3f> points);
   bool covers(const Vec3& offset) const;  ///< of a place, from the scanner
 
  private:

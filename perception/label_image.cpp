@@ -140,7 +140,8 @@ cv::Mat hidden_patches(const WallImage& image, const cv::Size& size, std::span<c
 
 /// The greatest depth that any position sees at each patch.
 cv::Mat traced_depth(const WallImage& image, const BitGrid& grid, const RegisteredCloud& cloud,
-                     const std::vector<Coverage>& coverages, double at_plane_m, const LabelOptions& options) {
+                     const std::vector<ScannerCoverage>& coverages, double at_plane_m,
+                     const LabelOptions& options) {
   cv::Mat depth(cells(image.height_m, options.trace_m), cells(image.length_m, options.trace_m), CV_32F,
                 cv::Scalar(-kDepthLimit_m));
   const double across_m = image.length_m / depth.cols, up_m = image.height_m / depth.rows;
@@ -199,7 +200,7 @@ void label(WallImage& image, const Splats& splats, const cv::Mat& traced, double
 
 std::vector<WallImage> label_images(const RegisteredCloud& cloud, const RoomObservation& room,
                                     const LabelOptions& options) {
-  std::vector<Coverage> coverages;
+  std::vector<ScannerCoverage> coverages;
   std::size_t points = 0;
   for (const RegisteredCloud::Part& part : cloud.parts) {
     if (options.positions > 0 && static_cast<int>(coverages.size()) == options.positions) break;

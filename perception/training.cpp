@@ -23,11 +23,11 @@ RegisteredCloud registered(const SimulatedRoom& room) {
   return registered(scans);
 }
 
-std::vector<KnownRoom> known_rooms(const Building& building, const SimulateOptions& options, int group) {
+std::vector<TrainingRoom> known_rooms(const Building& building, const SimulateOptions& options, int group) {
   std::vector<std::size_t> all(building.rooms.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const std::vector<SimulatedRoom> simulated = simulate_rooms(building, all, options);
-  std::vector<KnownRoom> known(all.size());
+  std::vector<TrainingRoom> known(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     known[i].cloud = registered(simulated[i]);
     known[i].room = observation_of_truth(building.rooms[i], simulated[i].frame_from_building);
@@ -37,7 +37,7 @@ std::vector<KnownRoom> known_rooms(const Building& building, const SimulateOptio
   return known;
 }
 
-std::vector<Sample> opening_samples(const KnownRoom& known, const OpeningOptions& options) {
+std::vector<Sample> opening_samples(const TrainingRoom& known, const OpeningOptions& options) {
   std::vector<Sample> samples;
   const std::vector<OpeningObservation> truth = true_openings(known.truth, known.room);
   const std::vector<WallImage> images = label_images(known.cloud, known.room, options.labels);
@@ -104,7 +104,7 @@ Interval wilson(int successes, int trials) {
 }
 
 Task opening_task(const OpeningOptions& options) {
-  const auto score = [options](const KnownRoom& known, const Forest& forest) {
+  const auto score = [options](const TrainingRoom& known, const Forest& forest) {
     const auto found = find_openings(known.cloud, known.room, forest, options);
     const auto truth = true_openings(known.truth, known.room);
     std::vector<std::pair<std::string, Score>> scores;
@@ -112,7 +112,7 @@ Task opening_task(const OpeningOptions& options) {
     return scores;
   };
   return {"openings", opening_feature_names(), opening_class_names(),
-          [options](const KnownRoom& known) { return opening_samples(known, options); }, score};
+          [options](const TrainingRoom& known) { return opening_samples(known, options); }, score};
 }
 
 namespace {

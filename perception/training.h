@@ -13,7 +13,7 @@
 namespace gramap {
 
 /// A scanned room whose truth is known, in the frame of its poses.
-struct KnownRoom {
+struct TrainingRoom {
   RegisteredCloud cloud;
   RoomObservation room;
   BuildingRoom truth;  ///< aligned with the observation
@@ -22,7 +22,7 @@ struct KnownRoom {
 
 /// Simulates all rooms of a building. Their walls are taken from the truth, so that what is trained does not
 /// depend on how planes are found.
-std::vector<KnownRoom> known_rooms(const Building& building, const SimulateOptions& options, int group);
+std::vector<TrainingRoom> known_rooms(const Building& building, const SimulateOptions& options, int group);
 
 RegisteredCloud registered(const SimulatedRoom& room);
 
@@ -30,16 +30,16 @@ RegisteredCloud registered(const SimulatedRoom& room);
 struct Task {
   std::string name;
   std::vector<std::string> features, classes;
-  std::function<std::vector<Sample>(const KnownRoom&)> samples;
+  std::function<std::vector<Sample>(const TrainingRoom&)> samples;
   /// Scores by kind of what the whole chain finds in a room with a forest.
-  std::function<std::vector<std::pair<std::string, struct Score>>(const KnownRoom&, const Forest&)> score;
+  std::function<std::vector<std::pair<std::string, struct Score>>(const TrainingRoom&, const Forest&)> score;
 };
 Task opening_task(const OpeningOptions& options = {});
 Task furniture_task(const FurnitureOptions& options = {});
 
 /// The candidates on a room's walls, labelled door or window where they overlap a true opening by at least
 /// 0.7, none below 0.5; those in between teach nothing and are left out.
-std::vector<Sample> opening_samples(const KnownRoom& known, const OpeningOptions& options);
+std::vector<Sample> opening_samples(const TrainingRoom& known, const OpeningOptions& options);
 
 /// How often something was found, missed, or found where there is nothing.
 struct Score {

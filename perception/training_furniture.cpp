@@ -14,7 +14,7 @@ int label_of(const std::string& type) {
 }
 
 /// Candidates labelled by the true piece that they overlap by at least 0.7, none below 0.5.
-std::vector<Sample> furniture_samples(const KnownRoom& known, const FurnitureOptions& options) {
+std::vector<Sample> furniture_samples(const TrainingRoom& known, const FurnitureOptions& options) {
   std::vector<Sample> samples;
   const FurnitureCandidates candidates = furniture_candidates(known.cloud, known.room, options);
   const auto add = [&](const FurnitureCandidate& candidate) {
@@ -87,8 +87,8 @@ std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<Fur
 
 Task furniture_task(const FurnitureOptions& options) {
   return {"furniture", furniture_feature_names(), furniture_class_names(),
-          [options](const KnownRoom& known) { return furniture_samples(known, options); },
-          [options](const KnownRoom& known, const Forest& forest) {
+          [options](const TrainingRoom& known) { return furniture_samples(known, options); },
+          [options](const TrainingRoom& known, const Forest& forest) {
             return score_furniture(find_furniture(known.cloud, known.room, forest, options), known.truth);
           }};
 }

@@ -24,7 +24,7 @@ Building room_with(std::vector<BuildingFurniture> furniture) {
 std::vector<FurnitureObservation> found_in(const Building& building) {
   SimulateOptions options;
   options.points_per_room = 80000;
-  const KnownRoom known = known_rooms(building, options, 0)[0];
+  const TrainingRoom known = known_rooms(building, options, 0)[0];
   auto found = find_furniture(known.cloud, known.room, shipped_furniture_forest());
   return found;
 }
@@ -41,7 +41,7 @@ TEST_CASE("a table, a stool and a cupboard are found and told apart") {
                                        {"other", box(4.5, 1, 4.99, 2.3), 0, 2.0, false}});
   SimulateOptions options;
   options.points_per_room = 80000;
-  const KnownRoom known = known_rooms(building, options, 0)[0];
+  const TrainingRoom known = known_rooms(building, options, 0)[0];
   const auto found = find_furniture(known.cloud, known.room, shipped_furniture_forest());
   // A long table may be cut in two, each half a table; nothing else may be made up.
   CHECK(found.size() >= 3);
@@ -62,7 +62,7 @@ TEST_CASE("a table, a stool and a cupboard are found and told apart") {
 }
 
 TEST_CASE("no points or no outline give nothing") {
-  KnownRoom known = known_rooms(room_with({}), {}, 0)[0];
+  TrainingRoom known = known_rooms(room_with({}), {}, 0)[0];
   known.cloud.points_m.clear();
   CHECK(find_furniture(known.cloud, known.room, shipped_furniture_forest()).empty());
   known.room.outline.clear();

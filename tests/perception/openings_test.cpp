@@ -25,11 +25,11 @@ Building office() {
   return {{room, hallway}};
 }
 
-std::vector<OpeningObservation> found_in(const KnownRoom& known) {
+std::vector<OpeningObservation> found_in(const TrainingRoom& known) {
   return find_openings(known.cloud, known.room, shipped_openings_forest());
 }
 
-void check_all_found(const KnownRoom& known) {
+void check_all_found(const TrainingRoom& known) {
   const auto found = found_in(known), truth = true_openings(known.truth, known.room);
   for (const char* kind : {"door", "window"}) {
     const Score score = score_openings(found, truth, kind);
@@ -86,7 +86,7 @@ TEST_CASE("a leaf half open does not hide its door from the hallway") {
 TEST_CASE("a room without openings has none, cupboard or not") {
   Building closed = office();
   for (BuildingRoom& room : closed.rooms) room.openings.clear();
-  for (const KnownRoom& known : known_rooms(closed, {}, 0)) CHECK(found_in(known).empty());
+  for (const TrainingRoom& known : known_rooms(closed, {}, 0)) CHECK(found_in(known).empty());
 }
 
 TEST_CASE("with all doors closed, only windows are found") {
@@ -98,7 +98,7 @@ TEST_CASE("with all doors closed, only windows are found") {
 }
 
 TEST_CASE("an empty cloud or no walls give nothing") {
-  KnownRoom known = known_rooms(office(), {}, 0)[0];
+  TrainingRoom known = known_rooms(office(), {}, 0)[0];
   known.cloud.points_m.clear();
   known.cloud.parts.clear();
   CHECK(found_in(known).empty());
