@@ -3,11 +3,11 @@ PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 FUZZ_SECONDS ?= 60
-.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all packages deb format format-check clean
+.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all packages deb docs format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
-	cmake --build --preset $(PRESET) -j $(JOBS) --target gramap_command
+	cmake --build --preset $(PRESET) -j $(JOBS) --target gramap_command documents
 
 demo: build
 	examples/demo
@@ -41,6 +41,12 @@ fuzz: packages
 
 packages:
 	scripts/install-packages
+
+# docs/verbs, from the options as they are declared.
+docs: packages
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET) -j $(JOBS) --target documents
+	rm -rf docs/verbs && cp -r build/documents/verbs docs/verbs
 
 # The Debian packages, in build/: gramap_*.deb (the command) and libgramap-dev_*.deb (for find_package(gramap)).
 deb: packages

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "app/option_table.h"
 #include "app/verbs.h"
 #include "geometry/error.h"
 #include "version.h"
@@ -14,12 +15,14 @@ int main(int argc, char** argv) {
   CLI::App app{"Noisy room scans and an interior grammar in, a complete, gap-free 3D floor out.", "gramap"};
   app.set_version_flag("--version", "gramap " GRAMAP_VERSION);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
+  set_help(app);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
 
   int code = kDone;
   const std::vector<Verb (*)(CLI::App&)> verbs = {
       declare_check,     //
+      declare_document,  //
       declare_explain,   //
       declare_fit,       //
       declare_fmt,       //

@@ -9,6 +9,14 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command
   PATTERN make-office EXCLUDE PATTERN demo EXCLUDE)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
 install(FILES cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
+# Where each shell looks for completions.
+set(GRAMAP_DOCUMENTS ${CMAKE_BINARY_DIR}/documents)
+install(DIRECTORY ${GRAMAP_DOCUMENTS}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+install(FILES ${GRAMAP_DOCUMENTS}/completions/gramap COMPONENT command
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${GRAMAP_DOCUMENTS}/completions/_gramap COMPONENT command DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${GRAMAP_DOCUMENTS}/completions/gramap.fish COMPONENT command
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
 # The headers name no library but Eigen; the two that do are gramap's own business.
 set(GRAMAP_CONFIG ${CMAKE_INSTALL_LIBDIR}/cmake/gramap)
