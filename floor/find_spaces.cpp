@@ -86,6 +86,76 @@ bool follows(const HallwayContact& next, const HallwayContact& contact, const Fi
          along.dot(step) > -options.interior_lap_m;
 }
 
+/// A room's part of its row, in the row's frame: along the line and across it.
+struct Strip {
+  double start_m = 0, end_m = 0;   ///< along
+  double front_m = 0, back_m = 0;  ///< across, the front at the hallway
+};
+
+/// The least distance at which the ring crosses the band from..to along the line, of what lies further than
+/// `beyond`; 1e300 when nothing does.
+double nearest_across(const Polygon& ring, double from, double to, double beyond) {
+  double nearest = 1e300;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+    if (a.x() > b.x()) std::swap(a, b);
+    if (b.x() <= from || a.x() >= to) continue;
+    const auto at = [&](double s) { return a.y() + (b.y() - a.y()) * (s - a.x()) / (b.x() - a.x()); };
+    for (const double t : {at(std::max(from, a.x())), at(std::min(to, b.x()))})
+      if (t > beyond) nearest = std::min(nearest, t);
+  }
+  return nearest;
+}
+
+/// Where others reach a little into the row from its ends, the row is shortened; where they reach into it
+/// from behind, the strip there is made less deep; from before, its front recedes.
+void keep_clear(std::vector<Strip>& strips, const std::vector<Polygon>& others, double wall_m) {
+  constexpr double kAskew_m = 1;  // the most that a plan's rooms are askew by, over their depth
+  Strip &first = strips.front(), &last = strips.back();
+  const double start_m = first.start_m, end_m = last.end_m;
+  const auto swapped = [](const Polygon& ring) {
+    Polygon result;
+    for (const Vec2& p : ring) result.emplace_back(p.y(), p.x());
+    return result;
+  };
+  for (const Polygon& ring : others) {
+    Polygon turned = swapped(ring);
+    const double ahead = nearest_across(turned, last.front_m, last.back_m, end_m - kAskew_m);
+    last.end_m = std::min(last.end_m, ahead - wall_m);
+    for (Vec2& p : turned) p.y() = -p.y();
+    const double behind = -nearest_across(turned, first.front_m, first.back_m, -start_m - kAskew_m);
+    first.start_m = std::max(first.start_m, behind + wall_m);
+  }
+  for (Strip& strip : strips) {
+    const double middle = (strip.front_m + strip.back_m) / 2, inset = 0.02;
+    for (Polygon ring : others) {
+      const double from = strip.start_m + inset, to = strip.end_m - inset;
+      strip.back_m = std::min(strip.back_m, nearest_across(ring, from, to, middle) - wall_m);
+      for (Vec2& p : ring) p.y() = -p.y();
+      const double before = -nearest_across(ring, from, to, -middle);
+      strip.front_m = std::max(strip.front_m, before + wall_m);
+    }
+  }
+}
+
+/// Joins neighbours that differ by less than anybody would build.
+void join_equal(std::vector<Strip>& strips) {
+  constexpr double kStep_m = 0.1;
+  std::vector<Strip> joined;
+  for (const Strip& strip : strips) {
+    if (!joined.empty() && std::abs(joined.back().front_m - strip.front_m) < kStep_m &&
+        std::abs(joined.back().back_m - strip.back_m) < kStep_m) {
+      Strip& whole = joined.back();
+      whole.end_m = strip.end_m;
+      whole.front_m = std::max(whole.front_m, strip.front_m);
+      whole.back_m = std::min(whole.back_m, strip.back_m);
+    } else {
+      joined.push_back(strip);
+    }
+  }
+  strips = std::move(joined);
+}
+
 }  // namespace
 
 std::vector<HallwayContact> hallway_contacts(const std::vector<Hallway>& hallways,
@@ -137,30 +207,48 @@ std::vector<std::vector<HallwayContact>> contact_rows(const std::vector<HallwayC
   return rows;
 }
 
-Space space_of_row(const std::vector<HallwayContact>& row, const std::string& id,
-                   const std::string& hallway) {
-  Space space;
-  space.id = id;
-  space.hallway = hallway;
+Space space_of_row(const std::vector<HallwayContact>& row, const std::string& id, const std::string& hallway,
+                   const std::vector<Polygon>& others, double wall_m) {
   // One straight line for the whole row: its rooms' edges may step a little.
   Vec2 along = Vec2::Zero();
   for (const HallwayContact& contact : row) along += contact.end - contact.start;
   along.normalize();
-  const Vec2 normal = left_of(along);
+  const Vec2 normal = left_of(along), origin = row.front().start;
   double across = 0, length = 0;
-  std::vector<double> depths;
+  std::vector<Strip> strips;
   for (const HallwayContact& contact : row) {
     const double share = (contact.end - contact.start).norm();
-    across += share * normal.dot((contact.start + contact.end) / 2 - row.front().start);
+    across += share * normal.dot((contact.start + contact.end) / 2 - origin);
     length += share;
-    depths.push_back(contact.depth_m);
+    const double first = normal.dot(contact.start - origin), last = normal.dot(contact.end - origin);
+    strips.push_back({along.dot(contact.start - origin), along.dot(contact.end - origin),
+                      std::max(first, last), std::min(first, last) + contact.depth_m});
   }
-  std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
-                   depths.end());
-  const double depth = depths[depths.size() / 2];
-  space.start = row.front().start + across / length * normal;
-  space.end = space.start + along.dot(row.back().end - row.front().start) * along;
-  space.outline = {space.start, space.end, space.end + depth * normal, space.start + depth * normal};
+  for (std::size_t i = 0; i + 1 < strips.size(); ++i)
+    strips[i].end_m = strips[i + 1].start_m = (strips[i].end_m + strips[i + 1].start_m) / 2;
+  std::vector<Polygon> rings;
+  for (const Polygon& other : others) {
+    rings.emplace_back();
+    for (const Vec2& p : other) rings.back().emplace_back(along.dot(p - origin), normal.dot(p - origin));
+  }
+  keep_clear(strips, rings, wall_m);
+  join_equal(strips);
+
+  Space space;
+  space.id = id;
+  space.hallway = hallway;
+  const auto in_plan = [&](double s, double t) { return Vec2(origin + s * along + t * normal); };
+  space.start = in_plan(strips.front().start_m, across / length);
+  space.end = in_plan(strips.back().end_m, across / length);
+  for (const Strip& strip : strips) {
+    space.outline.push_back(in_plan(strip.start_m, strip.front_m));
+    space.outline.push_back(in_plan(strip.end_m, strip.front_m));
+  }
+  for (auto strip = strips.rbegin(); strip != strips.rend(); ++strip) {
+    space.outline.push_back(in_plan(strip->end_m, strip->back_m));
+    space.outline.push_back(in_plan(strip->start_m, strip->back_m));
+  }
+  space.outline = simplified(space.outline, 1e-6);
   return space;
 }
 

@@ -39,7 +39,10 @@ std::vector<HallwayContact> hallway_contacts(const std::vector<Hallway>& hallway
 std::vector<std::vector<HallwayContact>> contact_rows(const std::vector<HallwayContact>& contacts,
                                                       const FindSpacesOptions& options = {});
 
-/// The space of a row: as long as the row, as deep as its rooms' median.
-Space space_of_row(const std::vector<HallwayContact>& row, const std::string& id, const std::string& hallway);
+/// The space of a row: as long as the row; before and behind it goes as far as each of its rooms does, so
+/// that its outline has a step where neighbours differ. It keeps `wall_m` away from the `others` (hallways,
+/// fixed rooms, rooms of other rows), however badly the plan was drawn.
+Space space_of_row(const std::vector<HallwayContact>& row, const std::string& id, const std::string& hallway,
+                   const std::vector<Polygon>& others, double wall_m);
 
 }  // namespace gramap

@@ -139,7 +139,7 @@ std::vector<Space> spaces_of(const FloorGroundTruth& floor, const FloorTruth& tr
   std::vector<Space> spaces;
   for (const auto& row : contact_rows(hallway_contacts(hallways, copies, doors)))
     spaces.push_back(space_of_row(row, copies[static_cast<std::size_t>(row.front().room)].id,
-                                  hallways[static_cast<std::size_t>(row.front().hallway)].id));
+                                  hallways[static_cast<std::size_t>(row.front().hallway)].id, {}, 0));
   return spaces;
 }
 

@@ -243,6 +243,20 @@ void place_doors(const Level& level, const IndoorOptions& options, FloorTruth& t
   }
 }
 
+/// What a row's space has to keep away from.
+std::vector<Polygon> all_but(const std::vector<HallwayContact>& row,
+                             const std::vector<std::vector<HallwayContact>>& rows,
+                             const IndoorFloor& indoor) {
+  std::vector<Polygon> others;
+  for (const Hallway& hallway : indoor.floor.hallways) others.push_back(hallway.outline);
+  for (const FixedRoom& fixed : indoor.floor.fixed) others.push_back(fixed.outline);
+  for (const auto& other : rows)
+    if (&other != &row)
+      for (const HallwayContact& contact : other)
+        others.push_back(indoor.truth.rooms[static_cast<std::size_t>(contact.room)].outline);
+  return others;
+}
+
 IndoorFloor to_floor(const Level& level, const GeoFile& file, const IndoorOptions& options) {
   IndoorFloor result;
   result.floor.name = std::filesystem::path(file.path).stem().string() + " level " + level.name;
@@ -276,7 +290,8 @@ IndoorFloor to_floor(const Level& level, const GeoFile& file, const IndoorOption
     const Hallway& hallway = result.floor.hallways[static_cast<std::size_t>(row.front().hallway)];
     const std::string first = result.truth.rooms[static_cast<std::size_t>(row.front().room)].id;
     const std::string last = result.truth.rooms[static_cast<std::size_t>(row.back().room)].id;
-    result.floor.spaces.push_back(space_of_row(row, first == last ? first : first + "-" + last, hallway.id));
+    result.floor.spaces.push_back(space_of_row(row, first == last ? first : first + "-" + last, hallway.id,
+                                               all_but(row, rows, result), *result.floor.inner_wall_m));
   }
   place_doors(level, options, result.truth);
   return result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "floor/spaces.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
 #include "tests/floor/temporary_file.h"
@@ -76,6 +77,30 @@ TEST_CASE("an OpenStreetMap plan becomes a floor with spaces, walls and doors, t
   CHECK(truth.openings[1].room == "4");
   CHECK(truth.openings[1].width_m == doctest::Approx(1.2));
   CHECK(read_floor(path).spaces.size() == 2);
+}
+
+TEST_CASE(
+    "rooms of unequal depth, drawn askew: a space goes as deep as each of its rooms, and no two overlap") {
+  // A hallway of 12 x 2 m; above it a deep room, a shallow one and a deep one; behind the shallow one, at a
+  // hallway that leads upward, another room, whose corner was drawn 10 cm into the shallow one's wall.
+  const test::TemporaryFolder folder;
+  const auto path = folder.write(
+      "plan.geojson", collection(feature(R"("indoor":"corridor","ref":"F")", box(0, 0, 12, 2)) + "," +
+                                 feature(R"("indoor":"corridor","ref":"G")", box(12, 0, 14, 12)) + "," +
+                                 feature(R"("indoor":"room","ref":"1")", box(0, 2, 4, 8)) + "," +
+                                 feature(R"("indoor":"room","ref":"2")", box(4, 2, 8, 4.1)) + "," +
+                                 feature(R"("indoor":"room","ref":"3")", box(8, 2, 12, 4)) + "," +
+                                 feature(R"("indoor":"room","ref":"4")", box(3.9, 4, 12, 8)) + "," +
+                                 feature(R"("indoor":"room","ref":"5")", box(4, 8, 12, 12))));
+  const FloorGroundTruth floor = read_floor(path);
+  REQUIRE(floor.spaces.size() == 2);
+  CHECK_NOTHROW(check_floor(floor, path.string()));
+  const double wall = *floor.inner_wall_m;
+  const Space& row = floor.spaces[0].hallway == "F" ? floor.spaces[0] : floor.spaces[1];
+  CHECK(row.hallway == "F");
+  CHECK(signed_area(row.outline) == doctest::Approx(4 * 6 + 8 * 2 - wall * (12 + 6)).epsilon(0.02));
+  const Space& other = &row == &floor.spaces[0] ? floor.spaces[1] : floor.spaces[0];
+  CHECK(signed_area(other.outline) == doctest::Approx(8 * 8 - wall * 16).epsilon(0.03));
 }
 
 TEST_CASE("a plan of several levels: each by itself, one by its name, all together refused") {
