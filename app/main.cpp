@@ -1,8 +1,13 @@
 // The `gramap` command: a table of verbs, one place that catches, exit codes.
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <functional>
+#include <new>
 #include <vector>
 
 #include "app/option_table.h"
@@ -10,8 +15,20 @@
 #include "geometry/error.h"
 #include "version.h"
 
+namespace {
+
+/// Whether all that was printed has arrived: a full disk behind `> table.txt` shows only here.
+bool printed() {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+  std::fprintf(stderr, "gramap: standard output: cannot be written: %s\n", std::strerror(errno));
+  return false;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace gramap;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file larger than the limit is an error that is told, as a full disk is
   CLI::App app{"Noisy room scans and an interior grammar in, a complete, gap-free 3D floor out.", "gramap"};
   app.set_version_flag("--version", "gramap " GRAMAP_VERSION);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
@@ -46,13 +63,20 @@ int main(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
-    return code;
+    return printed() ? code : kInputFault;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;
   } catch (const InputError& error) {
     const std::string place = to_string(error.place);
     std::fprintf(stderr, "gramap: %s%s%s\n", place.c_str(), place.empty() ? "" : ": ", error.what());
     if (!error.advice.empty()) std::fprintf(stderr, "  help: %s\n", error.advice.c_str());
+    return kInputFault;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "gramap: %s: %s\n", error.path1().c_str(), error.code().message().c_str());
+    return kInputFault;
+  } catch (const std::bad_alloc&) {
+    std::fputs("gramap: the memory does not suffice for this input\n  help: give a smaller part of it\n",
+               stderr);
     return kInputFault;
   } catch (const std::exception& error) {
     std::fprintf(

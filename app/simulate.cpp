@@ -110,11 +110,14 @@ void declare_day(CLI::App& verb, SimulateOptions& o) {
       ->capture_default_str();
 }
 
-std::vector<std::size_t> chosen_rooms(const Building& building, const std::vector<std::string>& names) {
+std::vector<std::size_t> chosen_rooms(const Building& building, const std::vector<std::string>& names,
+                                      const std::string& file) {
   std::vector<std::size_t> chosen;
   std::set<std::string> wanted(names.begin(), names.end());
-  for (std::size_t i = 0; i < building.rooms.size(); ++i)
+  for (std::size_t i = 0; i < building.rooms.size(); ++i) {
+    check_file_name(building.rooms[i].id, file);
     if (names.empty() || wanted.erase(building.rooms[i].id) > 0) chosen.push_back(i);
+  }
   if (!wanted.empty())
     throw InputError({}, "there is no room '" + *wanted.begin() + "' in the truth",
                      "name rooms by the \"id\" of their features");
@@ -145,7 +148,7 @@ int simulate(const Arguments& arguments) {
   FloorGroundTruth floor = read_floor(arguments.floor);
   const FloorTruth truth = read_truth(arguments.floor, floor.origin);
   const Building building = building_of(truth);
-  const std::vector<std::size_t> rooms = chosen_rooms(building, arguments.rooms);
+  const std::vector<std::size_t> rooms = chosen_rooms(building, arguments.rooms, arguments.floor);
   const std::filesystem::path out = arguments.out;
   refuse_old_scans(out / "scans");
 

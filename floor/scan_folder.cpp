@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 
 #include "geometry/error.h"
@@ -21,9 +22,9 @@ struct Job {
 
 std::vector<fs::path> folders_in(const fs::path& folder) {
   std::vector<fs::path> found;
-  std::error_code error;
+  std::error_code error, ignored;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->is_directory(error)) found.push_back(entry->path());
+    if (entry->is_directory(ignored)) found.push_back(entry->path());
   if (error)
     throw InputError({folder.string()}, "this folder of scans cannot be read: " + error.message(),
                      "give the folder that holds a folder for each room");
@@ -32,9 +33,9 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 }
 
 bool holds_files(const fs::path& folder) {
-  std::error_code error;
+  std::error_code error, ignored;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->is_regular_file(error)) return true;
+    if (!entry->is_directory(ignored)) return true;
   return false;
 }
 
@@ -84,6 +85,10 @@ PerceivedFolder perceive_folder(const fs::path& folder, const std::vector<std::s
       rooms[i] = std::move(room);
     } catch (const InputError& error) {
       faults[i] = reason(error);
+    } catch (const std::bad_alloc&) {
+      faults[i] = "the memory does not suffice for this room; thin its scans";
+    } catch (const fs::filesystem_error& error) {
+      faults[i] = error.path1().string() + ": " + error.code().message();
     }
     if (finished) finished(jobs[i].room, jobs.size());
   });

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -32,6 +33,59 @@ void write_all(int descriptor, std::string_view bytes, const std::filesystem::pa
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
+
+/// A file beside `target` that is not yet there: without a name where the system can do so, so that a kill
+/// while it is written leaves nothing behind; else under a temporary name.
+class Unfinished {
+ public:
+  explicit Unfinished(const std::filesystem::path& target) : temporary_(target.string() + ".partXXXXXX") {
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    if (::access("/proc/self/fd", X_OK) == 0)  // by which it gets its name
+      descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    has_name_ = descriptor < 0;
+    if (has_name_) descriptor = ::mkstemp(temporary_.data());
+  }
+  ~Unfinished() {
+    const int error = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    if (descriptor >= 0 && has_name_) ::unlink(temporary_.c_str());
+    errno = error;
+  }
+  Unfinished(const Unfinished&) = delete;
+
+  /// Puts the file in the place of `target`, at once. False, and errno, when that fails.
+  bool replace(const std::filesystem::path& target) {
+    if (!has_name_) {
+      if (link_to(target)) return true;
+      if (errno != EEXIST || !give_name()) return false;
+    }
+    if (::rename(temporary_.c_str(), target.c_str()) != 0) return false;
+    has_name_ = false;
+    return true;
+  }
+
+  int descriptor = -1;
+
+ private:
+  bool link_to(const std::filesystem::path& name) const {
+    const std::string self = "/proc/self/fd/" + std::to_string(descriptor);
+    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  }
+
+  /// A name for the moment before it replaces another file: there is no way to do both at once.
+  bool give_name() {
+    const std::string stem = temporary_.substr(0, temporary_.size() - 6);
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      temporary_ = stem + std::to_string(::getpid()) + "_" + std::to_string(attempt);
+      has_name_ = link_to(temporary_);
+      if (has_name_ || errno != EEXIST) break;
+    }
+    return has_name_;
+  }
+
+  std::string temporary_;
+  bool has_name_ = false;
+};
 
 }  // namespace
 
@@ -76,27 +130,22 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
     ::close(device);
     return;
   }
-  std::string temporary = target.string() + ".partXXXXXX";
-  const int descriptor = ::mkstemp(temporary.data());
-  if (descriptor < 0) fail(path, "cannot be written", errno);
-  try {
-    struct stat old {};
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    const mode_t mode = ::stat(target.c_str(), &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask;
-    ::fchmod(descriptor, mode);
-    write_all(descriptor, bytes, path);
-    if (::fsync(descriptor) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
-  } catch (...) {
-    ::close(descriptor);
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  if (::close(descriptor) != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    fail(path, "cannot be written", error);
-  }
+  Unfinished file(target);
+  if (file.descriptor < 0) fail(path, "cannot be written", errno);
+  struct stat old {};
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::fchmod(file.descriptor, ::stat(target.c_str(), &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask);
+  write_all(file.descriptor, bytes, path);
+  if (::fsync(file.descriptor) != 0 && errno != EINVAL) fail(path, "cannot be written", errno);
+  if (!file.replace(target)) fail(path, "cannot be written", errno);
+}
+
+void check_file_name(const std::string& name, const std::string& place) {
+  const bool odd = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c == '/' || c < 32; });
+  if (name.empty() || name == "." || name == ".." || odd)
+    throw InputError({place}, "'" + name + "' cannot be the name of a file or folder",
+                     "give it an id of letters, digits and - or _");
 }
 
 std::string hash_hex(std::string_view bytes) {

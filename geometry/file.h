@@ -15,6 +15,10 @@ std::string read_file(const std::filesystem::path& path);
 /// leaves an existing `path` as it was. The path "-" means standard output.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Throws InputError when `name`, out of an input, cannot be the name of a file in a folder of ours: empty,
+/// "." or "..", with a "/" or a control character. `place` is the input it comes from.
+void check_file_name(const std::string& name, const std::string& place);
+
 /// 64-bit FNV-1a hash as 16 hexadecimal digits, for naming inputs in outputs (not for security).
 std::string hash_hex(std::string_view bytes);
 

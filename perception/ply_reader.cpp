@@ -168,7 +168,7 @@ std::vector<Point> read_ply(const std::filesystem::path& path) {
       throw InputError({path.string()},
                        "the element '" + element.name + "' with lists comes before the points",
                        "export the cloud alone as PLY");
-    } else {
+    } else if (element.size > 0) {
       std::vector<char> buffer(element.size);
       for (std::uint64_t i = 0; i < element.count; ++i)
         if (lines.bytes(buffer.data(), buffer.size()) < buffer.size()) break;

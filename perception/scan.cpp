@@ -67,7 +67,7 @@ Scan read_scan(const fs::path& file, const ReadOptions& options) {
   if (options.up == 'y')
     for (Point& point : scan.points_m) point = Point(point.x(), -point.z(), point.y());
   const fs::path pose = file.parent_path() / (stem_of(file) + ".pose");
-  if (fs::exists(pose)) scan.room_from_scanner = pose_from_text(read_file(pose), pose);
+  if (fs::exists(fs::symlink_status(pose))) scan.room_from_scanner = pose_from_text(read_file(pose), pose);
   return scan;
 }
 
@@ -118,12 +118,12 @@ std::string pose_to_text(const Eigen::Isometry3d& room_from_scanner) {
 
 RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
   std::vector<fs::path> files;
-  std::error_code error;
-  if (fs::is_regular_file(folder, error)) {
+  std::error_code error, ignored;
+  if (fs::is_regular_file(folder, ignored)) {
     files.push_back(folder);
   } else {
     for (fs::directory_iterator it(folder, error), last; !error && it != last; it.increment(error))
-      if (it->is_regular_file() && !stem_of(it->path()).empty()) files.push_back(it->path());
+      if (!it->is_directory(ignored) && !stem_of(it->path()).empty()) files.push_back(it->path());
     if (error) throw InputError({folder.string()}, "cannot be read: " + error.message());
   }
   if (files.empty())
