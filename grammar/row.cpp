@@ -91,6 +91,7 @@ class Compiler {
       for (const auto& [named, probability] : rule.after->named)
         after_[static_cast<std::size_t>(rules.rules[static_cast<std::size_t>(named)].symbol)] = true;
     }
+    recursive_[0] = true;  // the start symbol comes back behind a background room
     cells_.push_back({});  // the empty list
   }
 
@@ -421,9 +422,9 @@ class Compiler {
   const RuleSet& rules_;
   const SpaceAttributes& space_;
   std::vector<std::vector<bool>> classes_;  // [class][rule]: whether its condition holds
-  std::vector<bool> recursive_;
-  std::vector<bool> tracked_rooms_;  // some left context asks for them
-  std::vector<bool> after_;          // symbols whose rules `after` blocks speak of
+  std::vector<bool> recursive_;             // symbols that a background room may stand before
+  std::vector<bool> tracked_rooms_;         // some left context asks for them
+  std::vector<bool> after_;                 // symbols whose rules `after` blocks speak of
   bool tracks_start_ = false;
 
   std::vector<Cell> cells_;

@@ -161,8 +161,8 @@ struct Rule {
 };
 
 /// A room that the rules do not foresee: any width between the bounds, all alike. Competes with the given
-/// probability wherever a symbol that can recur is rewritten, so that one unusual room never makes a whole
-/// space impossible.
+/// probability wherever the start symbol or one that can recur is rewritten (that symbol comes next), so that
+/// one unusual room never makes a whole space impossible.
 struct Background {
   double probability = 0;
   double least_m = 1;

@@ -113,6 +113,16 @@ TEST_CASE("a room that no rule foresees is a background room") {
   CHECK(std::abs(fit.best.rooms[1].width_m - 4.2) < 0.02);
 }
 
+TEST_CASE("a background room may be the only one of its space") {
+  RuleSet rules = office_rules();
+  rules.background.most_m = 10;
+  SpaceProblem problem = space(7.9);
+  problem.rooms = {scan("hall", 0, 7.9)};
+  const SpaceFit fit = fit_space(rules, problem);
+  CHECK(types(fit.best) == "Unknown");
+  CHECK(fit.best.rooms[0].evidence.size() == 1);
+}
+
 TEST_CASE("a length that no derivation fills is refused with the nearest one that works") {
   RuleSet rules = office_rules();
   rules.background.probability = 0;

@@ -139,7 +139,7 @@ class Oracle {
         able.push_back(r);
     }
     double foreseen = 1;
-    if (comes_back(symbol, symbol, 0) && rules_.background.probability > 0) {
+    if ((symbol == 0 || comes_back(symbol, symbol, 0)) && rules_.background.probability > 0) {
       foreseen -= rules_.background.probability;
       ElementRoom unknown;
       place({unknown}, {uniform()}, whole, cell, p * rules_.background.probability, last_rule, required);
