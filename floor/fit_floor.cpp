@@ -117,7 +117,8 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     fitted.rooms.push_back(room);
   }
   for (const Reinterpreted& note : fit.reinterpreted)
-    fitted.floor.remarks.push_back(problem.rooms[static_cast<std::size_t>(note.evidence)].id + ": " + note.how);
+    fitted.floor.remarks.push_back(problem.rooms[static_cast<std::size_t>(note.evidence)].id + ": " +
+                                   note.how);
   for (const SetAside& aside : fit.set_aside)
     fitted.set_aside.push_back({problem.rooms[static_cast<std::size_t>(aside.evidence)].id, aside.reason});
 }
@@ -137,13 +138,45 @@ FittedFloor given_floor(const FloorGroundTruth& floor, const RuleSet& rules, dou
   return fitted;
 }
 
+/// ln of the probability of all that was observed in the space.
+double evidence_score(const SpaceFit& fit) {
+  return fit.best.score - std::log(fit.best.probability);
+}
+
+/// The fit of a space; when it has to set scans aside or read them unusually, also under the assumption that
+/// the building is not as exact as the rules (walls of unequal thickness, rooms askew), so that the widths of
+/// a row of scanned rooms need not add up to its length to the centimetre. The more probable of the readings
+/// is taken (type II maximum likelihood over the misfit, with what is thought of each beforehand).
+SpaceFit fit_forgiving(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  struct Misfit {
+    double sigma_m, prior;
+  };
+  constexpr Misfit kMisfits[] = {{0.02, 0.1}, {0.06, 0.02}};
+  SpaceFit best = fit_space(rules, problem, options);
+  if (best.set_aside.empty() && best.reinterpreted.empty()) return best;
+  double best_score = evidence_score(best);
+  for (const Misfit& misfit : kMisfits) {
+    SpaceProblem loose = problem;
+    for (RoomEvidence& room : loose.rooms) {
+      room.width_sigma_m = std::hypot(room.width_sigma_m, misfit.sigma_m);
+      room.other_sigma_m = std::hypot(room.other_sigma_m, misfit.sigma_m);
+    }
+    SpaceFit fit = fit_space(rules, loose, options);
+    const double score = evidence_score(fit) + std::log(misfit.prior);
+    if (score <= best_score) continue;
+    best = std::move(fit);
+    best_score = score;
+  }
+  return best;
+}
+
 void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                 const FitOptions& options) {
   std::vector<SpaceFit> fits(problems.size());
   std::vector<std::exception_ptr> faults(problems.size());
   tbb::parallel_for(std::size_t{0}, problems.size(), [&](std::size_t i) {
     try {
-      fits[i] = fit_space(rules, problems[i], options);
+      fits[i] = fit_forgiving(rules, problems[i], options);
     } catch (...) {
       faults[i] = std::current_exception();
     }

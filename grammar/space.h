@@ -100,17 +100,17 @@ struct SpaceFit {
 };
 
 struct FitOptions {
-  double grid_m = 0.01;             ///< step of the dynamic programme's positions
-  double outlier_share = 0.02;      ///< ε: prior share of evidence that no room explains
+  double grid_m = 0.01;         ///< step of the dynamic programme's positions
+  double outlier_share = 0.02;  ///< ε: prior share of evidence that no room explains
   /// Prior share of evidence that belongs to a room which has other evidence, under another name.
   double duplicate_share = 0.01;
-  double cut_off_share = 0.02;      ///< prior share of scans whose one wall is spurious, inside the room
-  double missed_wall_share = 0.01;  ///< prior share of scans that read two rooms as one
-  double doorless_share = 0.03;     ///< prior share of rooms without a door to the hallway
-  double second_door_share = 0.05;  ///< prior share of rooms with two doors or more
-  double false_door_share = 0.01;   ///< expected number of doors seen per space that are none
-  int beam = 24;                    ///< prefixes of layouts that are carried on from about the same place
-  int alternatives = 0;             ///< how many distinct alternatives to report
+  double cut_off_share = 0.02;       ///< prior share of scans whose one wall is spurious, inside the room
+  double missed_wall_share = 0.001;  ///< prior share of scans that read two rooms as one
+  double doorless_share = 0.03;      ///< prior share of rooms without a door to the hallway
+  double second_door_share = 0.05;   ///< prior share of rooms with two doors or more
+  double false_door_share = 0.01;    ///< expected number of doors seen per space that are none
+  int beam = 24;                     ///< prefixes of layouts that are carried on from about the same place
+  int alternatives = 0;              ///< how many distinct alternatives to report
 };
 
 /// The most probable layout of the space. Throws InputError when no derivation fills the space, naming the

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "geometry/polygon.h"
 
@@ -78,6 +80,31 @@ TEST_CASE("rooms that nobody scanned are derived, and the widths fill the space 
         doctest::Approx(length).epsilon(1e-12));
   CHECK(fitted.rooms[2].width_sigma_m > 0.5 * fitted.rooms[0].width_sigma_m);
   CHECK(fitted.rooms[2].outline.size() == 4);
+}
+
+TEST_CASE("scans of a whole row that do not add up to it by a hand are taken all the same") {
+  RuleSet rules = two_types();
+  for (RoomType& type : rules.rooms) type.width.components[0].normal.sd_m = 0.4;
+  const std::vector<double> widths = {3.1, 4.8, 2.7, 3.3, 5.1, 2.9, 3.2, 5.3};
+  SpaceProblem problem;
+  problem.id = "s";
+  problem.depth_m = 4;
+  double start = 0;
+  for (const double width : widths) {
+    // Each room was drawn askew: its scan is 3 cm narrower than the room at its door.
+    RoomEvidence evidence =
+        scanned("r" + std::to_string(problem.rooms.size()), width - 0.03, start + width / 2);
+    evidence.width_sigma_m = 0.005;
+    evidence.centre_sigma_m = 0.1;
+    problem.rooms.push_back(evidence);
+    start += width + 0.2;
+  }
+  problem.length_m = start - 0.2;
+  const FittedFloor fitted = fit_floor(one_space(problem.length_m), rules, {problem}, {});
+  CHECK(fitted.set_aside.empty());
+  CHECK(fitted.floor.remarks.empty());
+  REQUIRE(fitted.rooms.size() == widths.size());
+  for (std::size_t i = 0; i < widths.size(); ++i) CHECK(std::abs(fitted.rooms[i].width_m - widths[i]) < 0.03);
 }
 
 TEST_CASE("a floor turned, mirrored in its line's direction or shifted far away gives the same layout") {
