@@ -3,7 +3,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 FUZZ_SECONDS ?= 60
-.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all packages deb docs format format-check clean
+.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all test-campus packages deb docs format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
@@ -38,6 +38,11 @@ fuzz: packages
 	cmake --preset fuzz -DGRAMAP_FUZZ_SECONDS=$(FUZZ_SECONDS)
 	cmake --build --preset fuzz -j $(JOBS) --target fuzzers
 	ctest --preset fuzz
+
+# examples/campus under Snakemake: killed half-way and resumed, it must give the bytes of an uninterrupted run.
+test-campus: build
+	scripts/install-packages packages-campus.txt
+	tests/campus/run $(CURDIR)/build/gramap $(CURDIR)/build/tests/campus
 
 packages:
 	scripts/install-packages

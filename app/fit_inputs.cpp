@@ -41,8 +41,10 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
   auto* floor = verb.add_option("floor", options.floor,
                                 "Floor file (floor.geojson), or a floor folder that may also hold scans/");
   verb.add_option("-r,--rules", options.rules, "Rule file")->required();
-  verb.add_option("-s,--scans", options.scans,
-                  "Folder with a folder of scans for each room [FLOOR/scans when the floor is a folder]");
+  verb.add_option(
+      "-s,--scans", options.scans,
+      "Folder with a folder of scans for each room, or the ROOM.json that `gramap perceive` made of "
+      "it [FLOOR/scans when the floor is a folder]");
   verb.add_option("--without", options.without, "Rooms whose scans to leave out, separated by commas")
       ->delimiter(',');
   const std::map<std::string, ScanFrame> frames{

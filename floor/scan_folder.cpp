@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "geometry/error.h"
-#include "perception/door_gaps.h"
+#include "geometry/file.h"
 #include "perception/scan.h"
 
 namespace gramap {
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 struct Job {
   std::string room;
-  fs::path folder;
+  fs::path folder;  ///< of its scans; or the .json that an earlier run made of them
 };
 
 std::vector<fs::path> folders_in(const fs::path& folder) {
@@ -39,6 +39,15 @@ bool holds_files(const fs::path& folder) {
   return false;
 }
 
+std::vector<fs::path> observations_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error, ignored;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == ".json" && !entry->is_directory(ignored)) found.push_back(entry->path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 std::vector<Job> jobs_of(const fs::path& folder, const std::vector<std::string>& without) {
   std::vector<Job> jobs;
   std::vector<std::string> names;
@@ -53,6 +62,11 @@ std::vector<Job> jobs_of(const fs::path& folder, const std::vector<std::string>&
       for (const fs::path& person : people) jobs.push_back({name, person});
     }
   }
+  for (const fs::path& file : observations_in(folder)) {
+    names.push_back(file.stem().string());
+    if (std::find(without.begin(), without.end(), names.back()) == without.end())
+      jobs.push_back({names.back(), file});
+  }
   if (names.empty())
     throw InputError({folder.string()}, "there is no room in this folder",
                      "it should hold a folder for each scanned room: <room>/scan000.xyz, scan000.pose, …");
@@ -61,6 +75,11 @@ std::vector<Job> jobs_of(const fs::path& folder, const std::vector<std::string>&
       throw InputError({folder.string()}, "there is no scanned room \"" + name + "\" to leave out",
                        "the rooms are the names of the folders in it");
   return jobs;
+}
+
+RoomObservation observed(const Job& job, const PerceptionOptions& options) {
+  if (job.folder.extension() == ".json") return observation_from_json(read_file(job.folder), job.folder);
+  return perceive_room(read_room_scans(job.folder), options);
 }
 
 std::string reason(const InputError& error) {
@@ -78,11 +97,8 @@ PerceivedFolder perceive_folder(const fs::path& folder, const std::vector<std::s
   std::vector<std::string> faults(jobs.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     try {
-      const RoomScans scans = read_room_scans(jobs[i].folder);
-      RoomObservation room = perceive_room(scans, options);
-      room.room = jobs[i].room;
-      if (room.openings.empty()) room.openings = find_door_gaps(registered(scans), room);
-      rooms[i] = std::move(room);
+      rooms[i] = observed(jobs[i], options);
+      rooms[i]->room = jobs[i].room;
     } catch (const InputError& error) {
       faults[i] = reason(error);
     } catch (const std::bad_alloc&) {

@@ -1,4 +1,5 @@
 #include "perception/perceive.h"
+#include "perception/door_gaps.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,6 +9,7 @@
 
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "perception/door_gaps.h"
 #include "perception/hidden_walls.h"
 #include "perception/level.h"
 #include "perception/measure.h"
@@ -113,6 +115,10 @@ Perception perceive(RegisteredCloud cloud, const std::string& room, const Percep
   if (options.find_openings) {
     found.observation.openings =
         find_openings(found.cloud, found.observation, shipped_openings_forest(), options.openings);
+    // A hallway's walls are mostly doors: where the forest knows none of them, gaps still say where rooms are
+    // entered.
+    if (found.observation.openings.empty())
+      found.observation.openings = find_door_gaps(found.cloud, found.observation);
     stages.end("openings");
   }
   if (options.find_furniture) {
