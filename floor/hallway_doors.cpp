@@ -23,8 +23,7 @@ Box bounds(const Polygon& ring, const Vec2& u) {
   return box;
 }
 
-/// How far apart two outlines are: root mean square distance of the moved corners from the given border,
-/// metres.
+/// See PlanMotion::misfit_m.
 double misfit(const Polygon& seen, const PlanMotion& motion, const Polygon& given) {
   double sum = 0;
   for (const Vec2& point : seen) sum += std::pow(distance_to_border(given, motion(point)), 2);
@@ -41,36 +40,34 @@ Vec2 PlanMotion::operator()(const Vec2& point) const {
 std::vector<PlanMotion> hallway_motions(const RoomObservation& seen, const Polygon& given, bool own_frame) {
   const Vec2 axis = oriented_box(given).axis, across(-axis.y(), axis.x());
   const Box target = bounds(given, axis);
-  struct Ranked {
-    double misfit_m;
-    PlanMotion motion;
-  };
-  std::vector<Ranked> ranked;
+  std::vector<PlanMotion> ranked;
   for (int quarter = 0; quarter < 4; ++quarter) {
     // The rotation that takes the seen axis, turned by quarters, onto the given one; middles of the boxes on
     // each other.
     const double angle =
         std::atan2(axis.y(), axis.x()) - std::atan2(seen.axis.y(), seen.axis.x()) + quarter * M_PI / 2;
-    PlanMotion motion{std::remainder(angle, 2 * M_PI), Vec2::Zero()};
+    PlanMotion motion{std::remainder(angle, 2 * M_PI), Vec2::Zero(), 0};
     Polygon turned;
     for (const Vec2& point : seen.outline) turned.push_back(motion(point));
     const Box box = bounds(turned, axis);
     const Vec2 middle = (target.low + target.high - box.low - box.high) / 2;
     motion.shift = middle.x() * axis + middle.y() * across;
     if (!own_frame && std::abs(motion.angle_rad) > M_PI / 4) continue;
-    ranked.push_back({misfit(seen.outline, motion, given), motion});
+    motion.misfit_m = misfit(seen.outline, motion, given);
+    ranked.push_back(motion);
   }
   std::sort(ranked.begin(), ranked.end(),
-            [](const Ranked& a, const Ranked& b) { return a.misfit_m < b.misfit_m; });
-  std::vector<PlanMotion> motions;
-  for (const Ranked& candidate : ranked)
-    if (candidate.misfit_m <= ranked.front().misfit_m + 0.3) motions.push_back(candidate.motion);
-  return motions;
+            [](const PlanMotion& a, const PlanMotion& b) { return a.misfit_m < b.misfit_m; });
+  std::erase_if(ranked, [best = ranked.empty() ? 0 : ranked.front().misfit_m](const PlanMotion& motion) {
+    return motion.misfit_m > best + 0.3;
+  });
+  return ranked;
 }
 
 void add_door_evidence(const FloorGroundTruth& floor, const RoomObservation& hallway,
                        const PlanMotion& plan_from_hallway, std::vector<SpaceProblem>& problems,
                        const HallwayDoorOptions& options) {
+  const double sigma_m = std::hypot(options.door_sigma_m, plan_from_hallway.misfit_m);
   for (std::size_t index = 0; index < hallway.walls.size(); ++index) {
     const WallObservation& wall = hallway.walls[index];
     const Vec2 a = plan_from_hallway(wall.a), b = plan_from_hallway(wall.b);
@@ -94,7 +91,7 @@ void add_door_evidence(const FloorGroundTruth& floor, const RoomObservation& hal
         const Vec2 middle = a + direction * (opening.start_m + opening.width_m / 2);
         const double centre = (middle - space.start).dot(along);
         if (centre <= 0 || centre >= length) continue;
-        problems[i].doors.push_back({centre, options.door_sigma_m, opening.width_m});
+        problems[i].doors.push_back({centre, sigma_m, opening.width_m, options.width_sigma_m});
       }
     }
   }

@@ -10,7 +10,9 @@
 namespace gramap {
 
 struct HallwayDoorOptions {
-  double door_sigma_m = 0.06;  ///< standard deviation of a door's position along the wall
+  /// Standard deviation of a door's position along the wall, as far as it is not the hallway's own misfit.
+  double door_sigma_m = 0.015;
+  double width_sigma_m = 0.04;  ///< and of its width
   double reach_m =
       0.7;  ///< a hallway's wall this near a reference line, and parallel to it, is that space's wall
   double least_confidence = 0.5;  ///< doors less sure than this are not used
@@ -20,6 +22,9 @@ struct HallwayDoorOptions {
 struct PlanMotion {
   double angle_rad = 0;
   Vec2 shift = Vec2::Zero();
+  /// How far apart the outlines still are: root mean square distance of the moved corners from the given
+  /// border, metres. A walk that drifted along a hallway is longer or shorter than the hallway.
+  double misfit_m = 0;
   Vec2 operator()(const Vec2& point) const;
 };
 

@@ -12,6 +12,11 @@ constexpr double kDepthShare = 0.9;       // rooms that are as deep as their spa
 constexpr double kDepthSd_m = 0.1;        // their spread
 constexpr double kThirdDoorShare = 0.2;   // of rooms with n doors, those that have one more
 constexpr double kLeastPlaceSd_m = 0.01;  // nobody builds doors to better than that
+constexpr double kElsewhereShare = 0.05;  // doors that are not where their room's type has them
+constexpr double kOtherWidthShare = 0.1;  // doors that are not as wide as their room's type has them
+constexpr double kDoorWidthSd_m = 0.03;   // spread of those that are
+constexpr double kDoorWidths_m = 2;       // range of the others, and of what is taken for a door
+constexpr double kDoorFrame_m = 0.05;     // least wall between a door and its room's corner
 constexpr double kSmallestSlack_m = 0.1;  // a door in a room of its own width still has some play
 
 double gauss(double x, double mean, double sd) {
@@ -214,18 +219,32 @@ Evidence::WindowTable Evidence::tabulate(double least_m, double most_m, double b
 Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
   const double near_m = door.centre_m - 0.5 * door.width_m;
   const double far_m = door.centre_m + 0.5 * door.width_m;
-  const double reach_m = kGateSigmas * door.sigma_m;
+  const double reach_m = kGateSigmas * door.sigma_m + kDoorFrame_m;
   DoorTables tables;
-  tables.starts_before = tabulate(near_m - reach_m, near_m + reach_m, 1, 0, [&](double start_m) {
-    return cumulative((near_m - start_m) / door.sigma_m);
-  });
-  // The room ends a wall before the next one starts.
-  tables.ends_after =
-      tabulate(far_m - reach_m + grid_.wall_m, far_m + reach_m + grid_.wall_m, 0, 1,
-               [&](double next_m) { return cumulative((next_m - grid_.wall_m - far_m) / door.sigma_m); });
+  const auto add_fits = [&](double frame_m) {
+    tables.starts_before.push_back(
+        tabulate(near_m - reach_m, near_m + reach_m, 1, 0, [&](double start_m) {
+          return cumulative((near_m - frame_m - start_m) / door.sigma_m);
+        }));
+    // The room ends a wall before the next one starts.
+    tables.ends_after.push_back(
+        tabulate(far_m - reach_m + grid_.wall_m, far_m + reach_m + grid_.wall_m, 0, 1, [&](double next_m) {
+          return cumulative((next_m - grid_.wall_m - far_m - frame_m) / door.sigma_m);
+        }));
+  };
   for (const RoomType& type : rules_.rooms) {
+    tables.width.push_back(1);
+    if (type.door && door.width_sigma_m > 0)
+      tables.width.back() = kOtherWidthShare + (1 - kOtherWidthShare) * kDoorWidths_m *
+                                                   gauss(door.width_m, type.door->width_m,
+                                                         std::hypot(door.width_sigma_m, kDoorWidthSd_m));
     WindowTable& from_start = tables.from_start.emplace_back();
     WindowTable& from_end = tables.from_end.emplace_back();
+    double frame_m = kDoorFrame_m;  // unless the rules say that doors are nearer to the corner
+    if (type.door)
+      for (const DoorHabit::Place& place : type.door->places)
+        frame_m = std::min(frame_m, place.offset.mean_m);
+    add_fits(frame_m);
     if (!type.door || type.door->places.empty()) continue;
     double weights = 0;
     double reach = 0;
@@ -250,22 +269,25 @@ Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
     from_end = tabulate(far_m + grid_.wall_m - farthest - reach, far_m + grid_.wall_m + farthest + reach, 0,
                         0, [&](double next_m) { return density(true, next_m - grid_.wall_m - far_m); });
   }
+  add_fits(kDoorFrame_m);
   return tables;
 }
 
-/// Density of the door's place in a room of the type (-1: no habit) that takes [first_cell, last_cell).
-double Evidence::door_place(std::size_t door, int type, int first_cell, int last_cell) const {
+/// Density of the door's place in a room of the type that takes [first_cell, last_cell), times what its width
+/// says. Of a room's second door only the width is known beforehand.
+double Evidence::door_place(std::size_t door, int type, bool second, int first_cell, int last_cell) const {
   const DoorTables& tables = door_tables_[door];
-  const double fits = tables.starts_before.at(first_cell) * tables.ends_after.at(last_cell);
+  const std::size_t t = type < 0 ? rules_.rooms.size() : static_cast<std::size_t>(type);
+  const double fits = tables.starts_before[t].at(first_cell) * tables.ends_after[t].at(last_cell);
   if (fits <= 0) return 0;
-  const bool has_habit = type >= 0 && rules_.rooms[static_cast<std::size_t>(type)].door &&
-                         !rules_.rooms[static_cast<std::size_t>(type)].door->places.empty();
-  if (!has_habit) {
-    const double width_m = grid_.width_m(last_cell - first_cell);
-    return fits / std::max(width_m - doors_[door].width_m, kSmallestSlack_m);
-  }
-  return fits * (tables.from_start[static_cast<std::size_t>(type)].at(first_cell) +
-                 tables.from_end[static_cast<std::size_t>(type)].at(last_cell));
+  const double width_m = grid_.width_m(last_cell - first_cell);
+  const double anywhere = 1 / std::max(width_m - doors_[door].width_m, kSmallestSlack_m);
+  if (type < 0) return fits * anywhere;
+  const bool has_habit = rules_.rooms[t].door && !rules_.rooms[t].door->places.empty();
+  if (!has_habit || second) return fits * tables.width[t] * anywhere;
+  return fits * tables.width[t] *
+         (kElsewhereShare * anywhere +
+          (1 - kElsewhereShare) * (tables.from_start[t].at(first_cell) + tables.from_end[t].at(last_cell)));
 }
 
 double Evidence::doors(int type, int first_cell, int last_cell) const {
@@ -285,9 +307,9 @@ double Evidence::doors(int type, int first_cell, int last_cell) const {
   double one_real = 0;
   double all_real = options_.second_door_share;
   for (std::size_t i = first; i < last; ++i) {
-    one_real = one_real * lone_false + all_false / none * door_place(i, type, first_cell, last_cell);
+    one_real = one_real * lone_false + all_false / none * door_place(i, type, false, first_cell, last_cell);
     all_false *= lone_false;
-    all_real *= door_place(i, -1, first_cell, last_cell);
+    all_real *= door_place(i, type, true, first_cell, last_cell);
     if (i >= first + 2) all_real *= kThirdDoorShare;
   }
   return all_false + one * one_real + (last - first >= 2 ? all_real : 0);

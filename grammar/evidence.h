@@ -103,17 +103,19 @@ class Evidence {
   /// One door's terms, those of the room's start (by its first cell) and those of its end (by the next room's
   /// first cell).
   struct DoorTables {
-    WindowTable starts_before;  // probability that the door lies wholly behind the room's start
-    WindowTable ends_after;
+    // By type (last: any): probability that the door lies wholly behind the room's start, before its end.
+    std::vector<WindowTable> starts_before;
+    std::vector<WindowTable> ends_after;
     std::vector<WindowTable>
         from_start;  // by type: density of the place, of the places reckoned from the start
     std::vector<WindowTable> from_end;
+    std::vector<double> width;  // by type: how much more likely a door of its width is than any other
   };
 
   template <class Function>
   WindowTable tabulate(double least_m, double most_m, double before, double after, Function f) const;
   DoorTables door_tables(const DoorEvidence& door) const;
-  double door_place(std::size_t door, int type, int first_cell, int last_cell) const;
+  double door_place(std::size_t door, int type, bool second, int first_cell, int last_cell) const;
 
   const RuleSet& rules_;
   FitOptions options_;

@@ -341,13 +341,30 @@ std::pair<int, long> kind_of(const LearnedRules& rules, const LearnedRule& rule)
   return {width.type, width.axes > 0 ? width.axes : std::lround(-100 * width.mean_m)};
 }
 
+/// Rooms of one row have more in common than any rule says: of how many rooms drawn one by one they tell as
+/// much as (Kish's design effect).
+double effective_count(double count, double rows) {
+  constexpr double likeness = 0.5;  // of two steps along the same row, 0 to 1
+  return count / (1 + likeness * (count / rows - 1));
+}
+
 /// For every kind of rule whose followers differ from all rules' followers: a block of its own, mixed with
 /// one count of the overall shares.
 void learn_after(LearnedRules& rules, const std::vector<std::vector<int>>& derivations) {
-  std::vector<std::vector<double>> counts(rules.rules.size(), std::vector<double>(rules.rules.size(), 0));
-  for (const auto& derivation : derivations)
-    for (std::size_t i = 0; i + 1 < derivation.size(); ++i)
-      counts[at(derivation[i])][at(derivation[i + 1])] += 1;
+  struct Followers {
+    std::vector<double> counts;
+    double count = 0;
+    std::set<std::size_t> rows;
+  };
+  std::map<std::pair<int, long>, Followers> pooled;
+  for (std::size_t r = 0; r < derivations.size(); ++r)
+    for (std::size_t i = 0; i + 1 < derivations[r].size(); ++i) {
+      Followers& followers = pooled[kind_of(rules, rules.rules[at(derivations[r][i])])];
+      followers.counts.resize(rules.rules.size(), 0);
+      followers.counts[at(derivations[r][i + 1])] += 1;
+      followers.count += 1;
+      followers.rows.insert(r);
+    }
   std::vector<double> overall;
   double total = 0;
   for (const LearnedRule& rule : rules.rules) {
@@ -355,20 +372,17 @@ void learn_after(LearnedRules& rules, const std::vector<std::vector<int>>& deriv
     total += overall.back();
   }
   for (double& share : overall) share /= total;
-  std::map<std::pair<int, long>, std::vector<double>> pooled;
-  for (std::size_t i = 0; i < rules.rules.size(); ++i) {
-    auto& sum = pooled.try_emplace(kind_of(rules, rules.rules[i]), rules.rules.size(), 0.0).first->second;
-    for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += counts[i][j];
-  }
   for (LearnedRule& rule : rules.rules) {
     if (rule.last_only || rule.any_type >= 0) continue;
-    const std::vector<double>& followers = pooled.at(kind_of(rules, rule));
-    double n = 0;
-    for (const double count : followers) n += count;
-    if (n < 2 || log_evidence_of_own(followers, overall, 1.0) <= 0) continue;
-    for (std::size_t j = 0; j < followers.size(); ++j)
-      if (followers[j] > 0)
-        rule.after.emplace_back(static_cast<int>(j), (followers[j] + overall[j]) / (n + 1));
+    const auto found = pooled.find(kind_of(rules, rule));
+    if (found == pooled.end()) continue;
+    const auto& [counts, n, rows] = found->second;
+    if (n < 2 || log_evidence_of_own(counts, overall, 1.0) <= 0) continue;
+    const double effective = effective_count(n, static_cast<double>(rows.size()));
+    for (std::size_t j = 0; j < counts.size(); ++j)
+      if (counts[j] > 0)
+        rule.after.emplace_back(static_cast<int>(j),
+                                (effective * counts[j] / n + overall[j]) / (effective + 1));
   }
 }
 

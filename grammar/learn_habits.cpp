@@ -23,7 +23,7 @@ struct PlaceModel {
 };
 
 PlaceModel describe_places(const std::vector<Offset>& offsets, bool side_is_free) {
-  constexpr double resolution_m = 0.05;  // a handle's breadth
+  constexpr double resolution_m = 0.02;  // to which doors are drawn and built
   PlaceModel model;
   const double n = static_cast<double>(offsets.size());
   for (const bool from_end : {false, true}) {

@@ -31,6 +31,7 @@ struct DoorEvidence {
   double centre_m = 0;
   double sigma_m = 0;
   double width_m = 0;
+  double width_sigma_m = 0;  ///< 0: the width is not held against what the rules say of doors
 };
 
 /// A stretch of the hallway's wall on which every door would have been seen.

@@ -158,7 +158,8 @@ Case make_case(std::uint64_t seed) {
   if (dice.chance(0.4)) {
     problem.doors_visible = {{dice.real(-0.2, 1), dice.real(2, problem.length_m)}};
     for (int i = dice.whole(0, 4); i > 0; --i)
-      problem.doors.push_back({dice.real(0, problem.length_m), dice.real(0.02, 0.2), 0.3});
+      problem.doors.push_back(
+          {dice.real(0, problem.length_m), dice.real(0.02, 0.2), dice.real(0.2, 0.4), dice.real(0, 0.1)});
   }
   return made;
 }
