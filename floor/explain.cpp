@@ -82,6 +82,8 @@ std::string explain_room(const FittedFloor& floor, const std::string& id) {
              100 * room.end_sigma_m);
   text += format("  width          %.3f m ± %.1f cm\n", room.width_m, 100 * room.width_sigma_m);
   text += format("  type           %s with probability %.3f\n", room.type.c_str(), room.type_probability);
+  text += format("  sure           %.3f that it is this room: its type, and its width to 10 cm\n",
+                 room.room_probability);
   text += "  rules          ";
   for (const std::string& rule : room.rule_path) text += rule + (rule == room.rule_path.back() ? "" : " > ");
   if (room.rule_path.empty()) text += room.rule;

@@ -92,6 +92,7 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     room.start_sigma_m = placed.start_sigma_m;
     room.end_sigma_m = placed.end_sigma_m;
     room.type_probability = placed.type_probability;
+    room.room_probability = placed.room_probability;
     room.rule = placed.rule;
     room.rule_path = placed.rule_path;
     room.height_m = fitted.height_m;

@@ -52,6 +52,7 @@ struct FittedRoom {
   std::optional<double> extracted_width_m;  ///< what the scan said, before the grammar
   std::optional<double> extracted_sigma_m;
   double type_probability = 1;
+  double room_probability = 1;  ///< of a room of this type and, to 10 cm, this width in this place
   std::string rule;
   std::vector<std::string> rule_path;   ///< the rules from the start symbol down to `rule`
   std::vector<std::string> scans;  ///< the scan folders it was observed in

@@ -71,6 +71,7 @@ FittedRoom room_of(const json& about, const std::string& name) {
   room.extracted_width_m = optional_number(about, "extracted_width");
   room.extracted_sigma_m = optional_number(about, "extracted_sigma");
   room.type_probability = number(about, "type_probability", 1);
+  room.room_probability = number(about, "room_probability", 1);
   room.rule = text(about, "rule");
   room.rule_path = texts(member(about, "rule_path"));
   room.scans = texts(member(about, "scans"));
@@ -150,6 +151,7 @@ ordered extras_of_room(const FittedRoom& room, const char* kind) {
                    {"height", room.height_m},
                    {"width_sigma", room.width_sigma_m},
                    {"type_probability", room.type_probability},
+                   {"room_probability", room.room_probability},
                    {"rule", room.rule},
                    {"outline", points(room.outline)}};
   if (!room.space.empty()) {

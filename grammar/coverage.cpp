@@ -28,15 +28,73 @@ CoverageChannel channel_of(const ElementRoom& room) {
   return {room.type, room.depth_start_m, room.depth_m};
 }
 
+/// Distance of a channel's middle from the hallway wall; < 0: it has the whole depth.
+double middle_depth_m(const CoverageChannel& channel) {
+  return channel.depth_m < 0 ? -1 : channel.depth_start_m + 0.5 * channel.depth_m;
+}
+
 bool covers_depth(const CoverageChannel& channel, double depth_m) {
   if (channel.depth_m < 0 || depth_m < 0) return true;
   return channel.depth_start_m <= depth_m && depth_m < channel.depth_start_m + channel.depth_m;
 }
 
+/// Rooms whose like is looked for, by their middles.
+class Wanted {
+ public:
+  Wanted(const Grid& grid, std::span<SameRoom> rooms)
+      : grid_(grid), tolerance_(static_cast<int>(std::lround(kSameWidth_m / grid.step_m))) {
+    for (SameRoom& room : rooms) rooms_.push_back(&room);
+    std::stable_sort(rooms_.begin(), rooms_.end(),
+                     [](const SameRoom* a, const SameRoom* b) { return a->middle < b->middle; });
+  }
+
+  /// Takes note of a room of an element that spans from `cell` to the cells of the move, with these
+  /// probabilities.
+  void add(const ElementRoom& room, int cell, const Move& move, const std::vector<double>& probabilities) {
+    const CoverageChannel channel = channel_of(room);
+    const bool whole = is_whole(room);
+    const auto first = std::lower_bound(rooms_.begin(), rooms_.end(), cell,
+                                        [](const SameRoom* wanted, int at) { return wanted->middle < at; });
+    for (auto at = first; at != rooms_.end() && (*at)->middle < move.last_cell(); ++at) {
+      SameRoom& wanted = **at;
+      if (!covers_depth(channel, middle_depth_m(wanted.channel))) continue;
+      for (int i = 0; i < move.count; ++i) {
+        const int width = move.first_cell + i * move.stride - cell;
+        const CellRange range = whole ? CellRange{0, width} : covered(room, grid_, width);
+        if (cell + range.begin > wanted.middle || wanted.middle >= cell + range.end) continue;
+        const double p = probabilities[static_cast<std::size_t>(i)];
+        const int off = range.end - range.begin - wanted.width;
+        if (wanted.channel == channel && std::abs(off) <= tolerance_) wanted.probability += p;
+        wanted.width_deviation_m += p * off * off;  // squares, in cells, until `finish`
+      }
+    }
+  }
+
+  void finish() {
+    for (SameRoom* room : rooms_) room->width_deviation_m = std::sqrt(room->width_deviation_m) * grid_.step_m;
+  }
+
+ private:
+  const Grid& grid_;
+  int tolerance_;
+  std::vector<SameRoom*> rooms_;
+};
+
 }  // namespace
 
+std::vector<SameRoom> rooms_of(const Lattice& lattice, const std::vector<PathStep>& path) {
+  std::vector<SameRoom> rooms;
+  for (const PathStep& step : path)
+    for (const ElementRoom& room : placed_element(lattice, step).rooms) {
+      const CellRange range = covered(room, lattice.grid(), step.width);
+      rooms.push_back(
+          {channel_of(room), step.cell + (range.begin + range.end) / 2, range.end - range.begin, 0, 0});
+    }
+  return rooms;
+}
+
 Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
-               const std::vector<double>& posteriors) {
+               const std::vector<double>& posteriors, std::span<SameRoom> rooms) {
   const Grid& grid = lattice.grid();
   const auto cells = static_cast<std::size_t>(grid.cells) + 1;
   Coverage changes;  // first of the probability from cell to cell, then summed up
@@ -53,6 +111,7 @@ Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable
   const double total = log_total(lattice, forward);
   Edges edges(lattice);
   Departures departures(lattice);
+  Wanted wanted(grid, rooms);
   std::vector<double> probabilities;
   for (int cell = 0; cell < grid.cells; ++cell) {
     for_each_evidence_state(lattice, cell, [&](int e) {
@@ -88,6 +147,7 @@ Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable
           if (all < kDeadPosterior) continue;
           for (std::size_t r = 0; r < element.rooms.size(); ++r) {
             std::vector<double>& change = *of_rooms[which][r];
+            wanted.add(element.rooms[r], cell, move, probabilities);
             const bool whole = is_whole(element.rooms[r]);
             if (whole) change[static_cast<std::size_t>(cell)] += all;
             for (int i = 0; i < move.count; ++i) {
@@ -106,6 +166,7 @@ Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable
       });
     });
   }
+  wanted.finish();
   for (auto& [channel, change] : changes)
     for (std::size_t i = 1; i < cells; ++i) change[i] += change[i - 1];
 
@@ -119,7 +180,7 @@ std::vector<double> type_probabilities(const Lattice& lattice, const Coverage& c
     for (const ElementRoom& room : placed_element(lattice, step).rooms) {
       const CellRange range = covered(room, lattice.grid(), step.width);
       const int middle = step.cell + (range.begin + range.end) / 2;
-      const double depth = room.depth_m < 0 ? -1 : room.depth_start_m + 0.5 * room.depth_m;
+      const double depth = middle_depth_m(channel_of(room));
       double probability = 0;
       for (const auto& [channel, covering] : coverage)
         if (channel.type == room.type && covers_depth(channel, depth))

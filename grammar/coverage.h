@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include "grammar/inference.h"
@@ -20,8 +21,26 @@ struct CoverageChannel {
 /// the wall after it, too.
 using Coverage = std::map<CoverageChannel, std::vector<double>>;
 
+/// Within what clear widths a room counts as the same, metres: plus or minus.
+inline constexpr double kSameWidth_m = 0.10;
+
+/// A room whose like is looked for: of its channel, covering its middle cell, with its gross width.
+struct SameRoom {
+  CoverageChannel channel;
+  int middle = 0;
+  int width = 0;           ///< in cells
+  double probability = 0;  ///< that such a room is there
+  /// Of the clear widths of whatever rooms cover the middle, about this one's: square root of the mean
+  /// square.
+  double width_deviation_m = 0;
+};
+
+/// The rooms of a path, element by element, in the order of Element::rooms.
+std::vector<SameRoom> rooms_of(const Lattice& lattice, const std::vector<PathStep>& path);
+
+/// Also fills in the probabilities of `rooms`.
 Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
-               const std::vector<double>& posteriors);
+               const std::vector<double>& posteriors, std::span<SameRoom> rooms = {});
 
 /// For every room of the path (element by element, in the order of Element::rooms): the posterior probability
 /// that the room which covers its centre has its type; inside a unit, at its place across the space.

@@ -222,15 +222,13 @@ Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
   const double reach_m = kGateSigmas * door.sigma_m + kDoorFrame_m;
   DoorTables tables;
   const auto add_fits = [&](double frame_m) {
-    tables.starts_before.push_back(
-        tabulate(near_m - reach_m, near_m + reach_m, 1, 0, [&](double start_m) {
-          return cumulative((near_m - frame_m - start_m) / door.sigma_m);
-        }));
+    tables.starts_before.push_back(tabulate(near_m - reach_m, near_m + reach_m, 1, 0, [&](double start_m) {
+      return cumulative((near_m - frame_m - start_m) / door.sigma_m);
+    }));
     // The room ends a wall before the next one starts.
-    tables.ends_after.push_back(
-        tabulate(far_m - reach_m + grid_.wall_m, far_m + reach_m + grid_.wall_m, 0, 1, [&](double next_m) {
-          return cumulative((next_m - grid_.wall_m - far_m - frame_m) / door.sigma_m);
-        }));
+    tables.ends_after.push_back(tabulate(
+        far_m - reach_m + grid_.wall_m, far_m + reach_m + grid_.wall_m, 0, 1,
+        [&](double next_m) { return cumulative((next_m - grid_.wall_m - far_m - frame_m) / door.sigma_m); }));
   };
   for (const RoomType& type : rules_.rooms) {
     tables.width.push_back(1);

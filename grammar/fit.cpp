@@ -119,21 +119,28 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
   const std::vector<double> posteriors = node_posteriors(lattice, before, behind);
   const auto sequences = most_probable_sequences(lattice, before, behind, posteriors,
                                                  {std::max(0, options.alternatives) + 1, options.beam});
-  const Coverage coverage = cover(lattice, before, behind, posteriors);
+  std::vector<SequencePosterior> found;
+  for (const auto& sequence : sequences) found.push_back(sequence_posterior(lattice, *sequence));
+  std::vector<SameRoom> same = rooms_of(lattice, found.front().best);
+  const Coverage coverage = cover(lattice, before, behind, posteriors, same);
   SpaceFit fit;
-  for (const auto& sequence : sequences) {
-    const SequencePosterior posterior = sequence_posterior(lattice, *sequence);
-    const auto explained = explain(lattice, posterior.best);
-    const std::vector<double> starts = refine(lattice, posterior.best, explained);
+  for (std::size_t s = 0; s < sequences.size(); ++s) {
+    const auto explained = explain(lattice, found[s].best);
+    const std::vector<double> starts = refine(lattice, found[s].best, explained);
     Layout layout;
-    layout.rooms = place_rooms(rules, lattice, posterior, starts, explained, problem.length_m);
-    layout.score = sequence->log_weight;
-    layout.probability = std::min(1.0, std::exp(sequence->log_posterior));
-    const std::vector<double> probabilities = type_probabilities(lattice, coverage, posterior.best);
+    layout.rooms = place_rooms(rules, lattice, found[s], starts, explained, problem.length_m);
+    layout.score = sequences[s]->log_weight;
+    layout.probability = std::min(1.0, std::exp(sequences[s]->log_posterior));
+    const std::vector<double> probabilities = type_probabilities(lattice, coverage, found[s].best);
     for (std::size_t i = 0; i < layout.rooms.size(); ++i) layout.rooms[i].type_probability = probabilities[i];
-    if (&sequence != &sequences.front()) {
+    if (s > 0) {
       fit.alternatives.push_back(std::move(layout));
       continue;
+    }
+    for (std::size_t i = 0; i < layout.rooms.size(); ++i) {
+      layout.rooms[i].room_probability = std::clamp(same[i].probability, 0.0, 1.0);
+      // The room may be another one altogether.
+      layout.rooms[i].width_sigma_m = std::max(layout.rooms[i].width_sigma_m, same[i].width_deviation_m);
     }
     fit.best = std::move(layout);
     report_evidence(problem, lattice, explained, fit);

@@ -10,7 +10,7 @@ namespace {
 
 using PrefixPtr = std::shared_ptr<const Prefix>;
 
-constexpr double kNegligible = 1e-14;  // share of a prefix below which its nodes are left out
+constexpr double kNegligible = 1e-16;  // share of a prefix below which its nodes are left out
 
 class Search {
  public:

@@ -58,10 +58,13 @@ struct PlacedRoom {
   std::string type;  ///< the room type's name; "Unknown" for the background room
   double start_m = 0;
   double width_m = 0;
+  /// Of the best layout's rooms: over all layouts, about this width; of alternatives': within the sequence.
   double width_sigma_m = 0;
   double start_sigma_m = 0;  ///< standard deviation of the wall before the room
   double end_sigma_m = 0;    ///< and behind it
   double type_probability = 1;
+  /// That a room of this type lies here and is as wide, to 10 cm; of the best layout's rooms only.
+  double room_probability = 1;
   std::string rule;                    ///< the rule that placed it
   std::vector<std::string> rule_path;  ///< from the start symbol's rule down to `rule`
   std::vector<int> evidence;           ///< indices into SpaceProblem::rooms

@@ -17,8 +17,9 @@
 #include "floor/scan_folder.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
-#include "geometry/polygon.h"
 #include "grammar/language.h"
+#include "tests/support/bench_main.h"
+#include "tests/support/true_widths.h"
 
 using namespace gramap;
 
@@ -28,36 +29,15 @@ struct Tally {
   int runs = 0, runs_right = 0;  // every space has the right number of rooms
   int spaces = 0, spaces_right = 0;
   std::vector<double> errors_m;  // of unscanned rooms in spaces with the right number
-  int sure = 0, sure_right = 0;  // unscanned rooms called 90 % sure or more, and those of them within 10 cm
+  int sure = 0, sure_right = 0;  // unscanned rooms called 90 % sure or more, those that are within 10 cm
   int inside_two_sigma = 0, calibrated = 0;
 };
-
-struct TrueWidth {
-  std::string id;
-  double start_m, width_m;
-};
-
-std::vector<TrueWidth> true_widths(const Space& space, const FloorTruth& truth) {
-  const Vec2 along = (space.end - space.start).normalized();
-  std::vector<TrueWidth> widths;
-  for (const TrueRoom& room : truth.rooms) {
-    if (!contains(space.outline, centroid(room.outline))) continue;
-    double low = 1e9, high = -1e9;
-    for (const Vec2& point : room.outline)
-      low = std::min(low, (point - space.start).dot(along)),
-      high = std::max(high, (point - space.start).dot(along));
-    widths.push_back({room.id, low, high - low});
-  }
-  std::sort(widths.begin(), widths.end(),
-            [](const TrueWidth& a, const TrueWidth& b) { return a.start_m < b.start_m; });
-  return widths;
-}
 
 void judge(const FittedFloor& fitted, const FloorTruth& truth, bool derived_only, Tally& tally) {
   ++tally.runs;
   bool all_right = true;
   for (const Space& space : fitted.floor.spaces) {
-    const auto widths = true_widths(space, truth);
+    const auto widths = test::true_widths(space, truth);
     std::vector<const FittedRoom*> rooms;
     for (const FittedRoom& room : fitted.rooms)
       if (room.space == space.id) rooms.push_back(&room);
@@ -69,16 +49,14 @@ void judge(const FittedFloor& fitted, const FloorTruth& truth, bool derived_only
       if (derived_only && rooms[i]->origin != Origin::derived) continue;
       // Without the right number, a room is held against the true one that lies where it does.
       const double middle = rooms[i]->start_m + rooms[i]->width_m / 2;
-      const auto there =
-          std::min_element(widths.begin(), widths.end(), [&](const TrueWidth& a, const TrueWidth& b) {
-            return std::abs(a.start_m + a.width_m / 2 - middle) <
-                   std::abs(b.start_m + b.width_m / 2 - middle);
-          });
+      const auto there = std::min_element(widths.begin(), widths.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a.start_m + a.width_m / 2 - middle) < std::abs(b.start_m + b.width_m / 2 - middle);
+      });
       const double error = std::abs(rooms[i]->width_m - (right ? widths[i].width_m : there->width_m));
       if (right) tally.errors_m.push_back(error);
       ++tally.calibrated;
       tally.inside_two_sigma += error <= 2 * rooms[i]->width_sigma_m + 1e-9;
-      if (rooms[i]->type_probability >= 0.9) ++tally.sure, tally.sure_right += error <= 0.10;
+      if (rooms[i]->room_probability >= 0.9) ++tally.sure, tally.sure_right += error <= 0.10;
     }
   }
   tally.runs_right += all_right;
@@ -145,10 +123,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "derived_widths: %s: %s\n", to_string(error.place).c_str(), error.what());
-    return 1;
-  }
+  return test::bench_main("derived_widths", [&] { return run(argc, argv); });
 }

@@ -18,6 +18,7 @@
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "grammar/language.h"
+#include "tests/support/bench_main.h"
 
 using namespace gramap;
 
@@ -110,10 +111,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "scan_order: %s: %s\n", to_string(error.place).c_str(), error.what());
-    return 1;
-  }
+  return test::bench_main("scan_order", [&] { return run(argc, argv); });
 }

@@ -39,12 +39,13 @@ int type_or_end(const SymbolRef& ref) {
 class Oracle {
  public:
   Oracle(const RuleSet& rules, const SpaceProblem& problem, const Evidence& evidence, const Grid& grid,
-         long most)
+         long most, std::vector<OracleRoom>* wanted)
       : rules_(rules),
         space_{problem.depth_m, problem.hallway, problem.facade},
         evidence_(evidence),
         grid_(grid),
-        most_(most) {
+        most_(most),
+        wanted_(wanted) {
     result_.coverage.assign(rules.rooms.size() + 1,
                             std::vector<double>(static_cast<std::size_t>(grid.cells), 0));
   }
@@ -378,6 +379,14 @@ class Oracle {
       sequence.xx[i] += weight * x * x;
       sequence.w[i] += weight * w;
       sequence.ww[i] += weight * w * w;
+      if (wanted_ != nullptr && placed_[i].rooms.size() == 1)
+        for (OracleRoom& room : *wanted_)
+          if (placed_[i].cell <= room.middle && room.middle < placed_[i].cell + placed_[i].width) {
+            const int off = placed_[i].width - room.width;
+            if (placed_[i].rooms[0].type == room.type && std::abs(off) <= room.tolerance)
+              room.weight += weight;
+            room.square_cells += weight * off * off;
+          }
       if (placed_[i].rooms.size() == 1)
         for (int cell = placed_[i].cell; cell < placed_[i].cell + placed_[i].width; ++cell)
           result_.coverage[static_cast<std::size_t>(placed_[i].rooms[0].type + 1)]
@@ -391,6 +400,7 @@ class Oracle {
   const Evidence& evidence_;
   Grid grid_;
   long most_;
+  std::vector<OracleRoom>* wanted_;
   long tried_ = 0;
   std::vector<Placed> placed_;
   OracleResult result_;
@@ -399,8 +409,9 @@ class Oracle {
 }  // namespace
 
 std::optional<OracleResult> enumerate_layouts(const RuleSet& rules, const SpaceProblem& problem,
-                                              const Evidence& evidence, const Grid& grid, long most) {
-  return Oracle(rules, problem, evidence, grid, most).run();
+                                              const Evidence& evidence, const Grid& grid, long most,
+                                              std::vector<OracleRoom>* wanted) {
+  return Oracle(rules, problem, evidence, grid, most, wanted).run();
 }
 
 }  // namespace gramap::test

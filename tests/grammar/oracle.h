@@ -29,8 +29,16 @@ struct OracleResult {
   long layouts = 0;
 };
 
+/// A room whose like is looked for: a type, a cell that it covers, gross width in cells (to `tolerance`).
+struct OracleRoom {
+  int type = 0, middle = 0, width = 0, tolerance = 0;
+  double weight = 0;        // of the layouts that have one
+  double square_cells = 0;  // weighted: how far the width of what covers the middle is off, squared
+};
+
 /// None when there are more layouts than `most`.
 std::optional<OracleResult> enumerate_layouts(const RuleSet& rules, const SpaceProblem& problem,
-                                              const Evidence& evidence, const Grid& grid, long most);
+                                              const Evidence& evidence, const Grid& grid, long most,
+                                              std::vector<OracleRoom>* wanted = nullptr);
 
 }  // namespace gramap::test

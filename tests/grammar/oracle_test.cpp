@@ -213,7 +213,23 @@ bool compare(std::uint64_t seed, int& longest) {
   const auto found = most_probable_sequences(lattice, before, behind, posteriors, {6, 100000});
   const std::size_t count = std::min<std::size_t>(6, scores.size());
   REQUIRE(found.size() >= count);
-  const Coverage coverage = cover(lattice, before, behind, posteriors);
+  REQUIRE(!found.empty());
+  std::vector<SameRoom> alike = rooms_of(lattice, sequence_posterior(lattice, *found[0]).best);
+  const Coverage coverage = cover(lattice, before, behind, posteriors, alike);
+  std::vector<OracleRoom> like;
+  const int tolerance = static_cast<int>(std::lround(kSameWidth_m / grid.step_m));
+  for (const SameRoom& room : alike)
+    like.push_back({room.channel.type, room.middle, room.width, tolerance, 0, 0});
+  (void)enumerate_layouts(test.rules, test.problem, evidence, grid, kMostLayouts, &like);
+  const bool any_unit = std::any_of(coverage.begin(), coverage.end(),
+                                    [](const auto& channel) { return channel.first.depth_m >= 0; });
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    if (alike[i].channel.depth_m >= 0) continue;
+    CHECK(std::abs(alike[i].probability - like[i].weight / truth->total) < kClose);
+    if (!any_unit)
+      CHECK(std::abs(alike[i].width_deviation_m -
+                     grid.step_m * std::sqrt(like[i].square_cells / truth->total)) < kClose);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     CHECK(std::abs(found[i]->log_weight - scores[i]) < kClose);
     CHECK(std::abs(std::exp(found[i]->log_posterior) - std::exp(scores[i]) / truth->total) < kClose);

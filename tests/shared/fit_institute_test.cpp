@@ -14,6 +14,7 @@
 #include "geometry/polygon.h"
 #include "grammar/language.h"
 #include "tests/shared/shared_data.h"
+#include "tests/support/true_widths.h"
 
 using namespace gramap;
 
@@ -24,28 +25,6 @@ RuleSet rules_file(const std::string& name) {
   const CheckedRules checked = check_rules(read_file(path), name);
   REQUIRE(checked.rules);
   return *checked.rules;
-}
-
-/// True rooms of a space from the start of its line to its end: ids and clear widths.
-struct TrueWidth {
-  std::string id;
-  double start_m;
-  double width_m;
-};
-std::vector<TrueWidth> true_widths(const Space& space, const FloorTruth& truth) {
-  const Vec2 along = (space.end - space.start).normalized();
-  std::vector<TrueWidth> widths;
-  for (const TrueRoom& room : truth.rooms) {
-    if (!contains(space.outline, centroid(room.outline))) continue;
-    double low = 1e9, high = -1e9;
-    for (const Vec2& point : room.outline)
-      low = std::min(low, (point - space.start).dot(along)),
-      high = std::max(high, (point - space.start).dot(along));
-    widths.push_back({room.id, low, high - low});
-  }
-  std::sort(widths.begin(), widths.end(),
-            [](const TrueWidth& a, const TrueWidth& b) { return a.start_m < b.start_m; });
-  return widths;
 }
 
 /// Fits a floor of the institute and holds every room against the truth.
@@ -70,7 +49,7 @@ void fit_and_compare(const std::filesystem::path& folder, const std::vector<std:
     std::vector<FittedRoom> rooms;
     for (const FittedRoom& room : fitted.rooms)
       if (room.space == space.id) rooms.push_back(room);
-    const auto widths = true_widths(space, truth);
+    const auto widths = test::true_widths(space, truth);
     REQUIRE(rooms.size() == widths.size());
     for (std::size_t i = 0; i < rooms.size(); ++i) {
       INFO("room ", widths[i].id, " fitted ", rooms[i].width_m, " true ", widths[i].width_m);
