@@ -9,9 +9,9 @@
 namespace gramap {
 namespace {
 
-/// The perceived ring turned and shifted onto the true one. Scans know neither the building's frame (rooms of their own
-/// frame) nor their drift in it, so only shape and size are judged. Every start of the ring is tried, as rings of boxes with
-/// sides of different lengths tell apart.
+/// The perceived ring turned and shifted onto the true one. Scans know neither the building's frame (rooms of
+/// their own frame) nor their drift in it, so only shape and size are judged. Every start of the ring is
+/// tried, as rings of boxes with sides of different lengths tell apart.
 Polygon laid_on(const Polygon& ring, const Polygon& truth) {
   const Vec2 from = centroid(ring), to = centroid(truth);
   Polygon best;
@@ -53,13 +53,16 @@ double near_share(const Polygon& ring, const Polygon& other) {
 }  // namespace
 
 std::string accuracy_table(const std::vector<RoomObservation>& rooms, const FloorTruth& truth) {
-  std::string text = "room      type       width m  error  sigma   depth m  error  sigma  height m  error  walls found  false walls\n";
+  std::string text =
+      "room      type       width m  error  sigma   depth m  error  sigma  height m  error  walls found  "
+      "false walls\n";
   char line[200];
   std::vector<double> errors, heights;
   int inside = 0, false_walls = 0, seen = 0;
   double least_found = 1;
   for (const TrueRoom& room : truth.rooms) {
-    const auto found = std::find_if(rooms.begin(), rooms.end(), [&](const RoomObservation& o) { return o.room == room.id; });
+    const auto found =
+        std::find_if(rooms.begin(), rooms.end(), [&](const RoomObservation& o) { return o.room == room.id; });
     if (found == rooms.end()) {
       std::snprintf(line, sizeof line, "%-9s %-10s not perceived\n", room.id.c_str(), room.type.c_str());
       text += line;
@@ -85,9 +88,11 @@ std::string accuracy_table(const std::vector<RoomObservation>& rooms, const Floo
       }
       return high - low;
     };
-    const double width = extent(axis), depth = extent(Vec2(-axis.y(), axis.x())), height = room.ceiling_m - room.floor_m;
+    const double width = extent(axis), depth = extent(Vec2(-axis.y(), axis.x())),
+                 height = room.ceiling_m - room.floor_m;
     Measured w = found->width, d = found->depth;
-    if (std::abs(w.value_m - depth) + std::abs(d.value_m - width) < std::abs(w.value_m - width) + std::abs(d.value_m - depth))
+    if (std::abs(w.value_m - depth) + std::abs(d.value_m - width) <
+        std::abs(w.value_m - width) + std::abs(d.value_m - depth))
       std::swap(w, d);  // a frame of its own: which side is the width is not known
     const Polygon laid = laid_on(found->outline, room.outline);
     const double walls = near_share(room.outline, laid);
@@ -97,9 +102,11 @@ std::string accuracy_table(const std::vector<RoomObservation>& rooms, const Floo
       wrong += distance_to_border(room.outline, middle) > 0.05;
     }
     const double errors_here[] = {w.value_m - width, d.value_m - depth};
-    std::snprintf(line, sizeof line, "%-9s %-10s %7.3f %6.1f %6.1f   %7.3f %6.1f %6.1f   %7.3f %6.1f  %9.1f %%  %11d\n", room.id.c_str(),
-                  room.type.c_str(), width, 1e3 * errors_here[0], 1e3 * w.sigma_m, depth, 1e3 * errors_here[1], 1e3 * d.sigma_m, height,
-                  1e3 * (found->height.value_m - height), 100 * walls, wrong);
+    std::snprintf(line, sizeof line,
+                  "%-9s %-10s %7.3f %6.1f %6.1f   %7.3f %6.1f %6.1f   %7.3f %6.1f  %9.1f %%  %11d\n",
+                  room.id.c_str(), room.type.c_str(), width, 1e3 * errors_here[0], 1e3 * w.sigma_m, depth,
+                  1e3 * errors_here[1], 1e3 * d.sigma_m, height, 1e3 * (found->height.value_m - height),
+                  100 * walls, wrong);
     text += line;
     inside += std::abs(errors_here[0]) <= 2 * w.sigma_m;
     inside += std::abs(errors_here[1]) <= 2 * d.sigma_m;
@@ -117,13 +124,16 @@ std::string accuracy_table(const std::vector<RoomObservation>& rooms, const Floo
   };
   const auto within = std::count_if(errors.begin(), errors.end(), [](double error) { return error <= 0.02; });
   std::snprintf(line, sizeof line,
-                "%d of %zu rooms; width and depth: mean error %.1f mm, largest %.1f mm, %.1f %% within 20 mm, %.1f %% within 2 sigma; "
+                "%d of %zu rooms; width and depth: mean error %.1f mm, largest %.1f mm, %.1f %% within 20 "
+                "mm, %.1f %% within 2 sigma; "
                 "height: mean error %.1f mm\n",
-                seen, truth.rooms.size(), 1e3 * mean(errors), 1e3 * *std::max_element(errors.begin(), errors.end()),
+                seen, truth.rooms.size(), 1e3 * mean(errors),
+                1e3 * *std::max_element(errors.begin(), errors.end()),
                 100.0 * static_cast<double>(within) / static_cast<double>(errors.size()),
                 100.0 * inside / static_cast<double>(errors.size()), 1e3 * mean(heights));
   text += line;
-  std::snprintf(line, sizeof line, "walls found: at least %.1f %% of every room's; false walls: %d\n", 100 * least_found, false_walls);
+  std::snprintf(line, sizeof line, "walls found: at least %.1f %% of every room's; false walls: %d\n",
+                100 * least_found, false_walls);
   return text + line;
 }
 

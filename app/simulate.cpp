@@ -1,4 +1,4 @@
-// `gramap simulate`: a floor of known truth in, scans of its rooms out.
+// `gramap simulate`: a floor of known truth, or one drawn from rules, in; scans of its rooms out.
 #include "perception/simulate.h"
 
 #include <CLI/CLI.hpp>
@@ -11,19 +11,24 @@
 #include <string>
 #include <vector>
 
+#include "app/rules_file.h"
 #include "app/verbs.h"
 #include "floor/building.h"
+#include "floor/drawn_floor.h"
+#include "floor/fitted_geojson.h"
 #include "floor/ground_truth.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
-#include "perception/random.h"
+#include "perception/random_building.h"
 #include "perception/scan.h"
 
 namespace gramap {
 namespace {
 
 struct Arguments {
-  std::string floor;
+  std::string floor, rules;
+  PlainFloorOptions plain;
+  double clutter = 0;
   std::string out;
   std::vector<std::string> rooms;
   int decimals = 3;
@@ -110,6 +115,27 @@ void declare_day(CLI::App& verb, SimulateOptions& o) {
       ->capture_default_str();
 }
 
+void declare_drawn(CLI::App& verb, Arguments& arguments) {
+  const CLI::Range length(0.5, 1000.0);
+  verb.add_option("--rules", arguments.rules,
+                  "Rule file to draw the floor's rooms from, with their doors, windows and usual furniture");
+  verb.add_option("--length", arguments.plain.length_m,
+                  "Without a floor: clear length of the hallway and the space on either side, metres")
+      ->check(length)
+      ->capture_default_str();
+  verb.add_option("--depth", arguments.plain.depth_m, "Without a floor: clear depth of the spaces, metres")
+      ->check(length)
+      ->capture_default_str();
+  verb.add_option("--hallway-width", arguments.plain.hallway_m,
+                  "Without a floor: clear width of the hallway, metres")
+      ->check(length)
+      ->capture_default_str();
+  verb.add_option("--clutter", arguments.clutter,
+                  "More furniture at random, and things on it: 0 none, 1 crammed")
+      ->check(CLI::Range(0.0, 2.0))
+      ->capture_default_str();
+}
+
 std::vector<std::size_t> chosen_rooms(const Building& building, const std::vector<std::string>& names,
                                       const std::string& file) {
   std::vector<std::size_t> chosen;
@@ -144,11 +170,44 @@ void refuse_old_scans(const std::filesystem::path& scans) {
                      "remove them, or write to another folder");
 }
 
+/// Furniture and what lies on it at random, besides what is there; all but the latter is truth as well.
+void add_clutter(Building& building, FloorTruth& truth, const Arguments& arguments) {
+  for (BuildingRoom& room : building.rooms) {
+    const std::size_t before = room.furniture.size();
+    Random random(seed_for(arguments.options.seed, "clutter " + room.id));
+    furnish(room, arguments.clutter, random);
+    for (std::size_t i = before; i < room.furniture.size(); ++i) {
+      const BuildingFurniture& piece = room.furniture[i];
+      if (piece.counts())
+        truth.furniture.push_back({room.id, piece.type, piece.outline, piece.bottom_m, piece.top_m});
+    }
+  }
+}
+
+struct KnownFloor {
+  FloorGroundTruth floor;
+  FloorTruth truth;
+};
+
+KnownFloor known_floor(const Arguments& arguments) {
+  if (arguments.rules.empty()) {
+    KnownFloor known{read_floor(arguments.floor), {}};
+    known.truth = read_truth(arguments.floor, known.floor.origin);
+    return known;
+  }
+  const RuleSet rules = read_rules(arguments.rules);
+  const FloorGroundTruth floor =
+      arguments.floor.empty() ? plain_floor(rules, arguments.plain) : read_floor(arguments.floor);
+  const FittedFloor drawn = drawn_floor(floor, rules, arguments.options.seed);
+  return {drawn.floor, truth_of(drawn)};
+}
+
 int simulate(const Arguments& arguments) {
-  FloorGroundTruth floor = read_floor(arguments.floor);
-  const FloorTruth truth = read_truth(arguments.floor, floor.origin);
-  const Building building = building_of(truth);
-  const std::vector<std::size_t> rooms = chosen_rooms(building, arguments.rooms, arguments.floor);
+  auto [floor, truth] = known_floor(arguments);
+  Building building = building_of(truth);
+  if (arguments.clutter > 0) add_clutter(building, truth, arguments);
+  const std::string& source = arguments.floor.empty() ? arguments.rules : arguments.floor;
+  const std::vector<std::size_t> rooms = chosen_rooms(building, arguments.rooms, source);
   const std::filesystem::path out = arguments.out;
   refuse_old_scans(out / "scans");
 
@@ -182,8 +241,9 @@ Verb declare_simulate(CLI::App& gramap) {
   CLI::App* verb = gramap.add_subcommand(
       "simulate", "Scans of a floor whose rooms are known, as a hand-held depth sensor would take them");
   verb->add_option("floor", arguments->floor,
-                   "A floor folder with floor.geojson and truth.geojson, or one GeoJSON file with both")
-      ->required();
+                   "A floor folder with floor.geojson and truth.geojson, or one GeoJSON file with both; with "
+                   "--rules the truth is drawn, and the floor may be left out");
+  declare_drawn(*verb, *arguments);
   verb->add_option("-o,--output", arguments->out,
                    "Floor folder to write: scans/<room>/scanNNN.xyz and .pose, floor.geojson, truth.geojson")
       ->required();
@@ -205,7 +265,11 @@ Verb declare_simulate(CLI::App& gramap) {
   declare_walk(*verb, arguments->options);
   declare_sensor(*verb, arguments->options);
   declare_day(*verb, arguments->options);
-  return [arguments] { return simulate(*arguments); };
+  return [arguments] {
+    if (arguments->floor.empty() && arguments->rules.empty())
+      throw InputError({}, "nothing to simulate scans of", "give a FLOOR with its truth, or --rules RULES");
+    return simulate(*arguments);
+  };
 }
 
 }  // namespace gramap

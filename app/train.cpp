@@ -4,11 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "app/ablation.h"
 #include "app/verbs.h"
 #include "floor/building.h"
 #include "geometry/error.h"
@@ -32,6 +32,7 @@ struct Arguments {
   double held_out = 0.25;
   std::uint64_t seed = 1;
   bool mistakes = false;
+  bool ablation = false;
 };
 
 Task task_named(const std::string& name) {
@@ -44,38 +45,25 @@ bool is_held_out(const Arguments& arguments, int building) {
   return random.chance(arguments.held_out);
 }
 
-std::vector<TrainingRoom> simulated_building(const Arguments& arguments, int building) {
+std::vector<TrainingRoom> simulated_building(const Arguments& arguments, int building, double noise = 1) {
   const std::uint64_t seed = seed_for(arguments.seed, "building " + std::to_string(building));
-  return known_rooms(random_building(seed), random_conditions(seed), building);
+  SimulateOptions options = random_conditions(seed);
+  options.noise_m *= noise;
+  options.noise_growth_per_m *= noise;
+  return known_rooms(random_building(seed), options, building);
 }
 
-using Scores = std::map<std::string, Score>;
-
-Scores score_rooms(const Task& task, const Forest& forest, const std::vector<TrainingRoom>& rooms) {
-  std::vector<std::vector<std::pair<std::string, Score>>> each(rooms.size());
-  tbb::parallel_for(std::size_t{0}, rooms.size(),
-                    [&](std::size_t i) { each[i] = task.score(rooms[i], forest); });
-  Scores total;
-  for (std::size_t i = 0; i < rooms.size(); ++i)
-    for (auto& [kind, score] : each[i]) {
-      for (std::string& mistake : score.mistakes) mistake.insert(0, "room " + rooms[i].truth.id + ": ");
-      total[kind].add(score);
-    }
-  return total;
-}
-
-void print_scores(const std::string& what, const Scores& scores, bool mistakes) {
-  std::printf("\n%s\n%-14s %6s %6s %6s  %-22s %-22s\n", what.c_str(), "kind", "truth", "found", "right",
-              "recall (95 %)", "precision (95 %)");
-  for (const auto& [kind, score] : scores) {
-    const Interval r = wilson(score.right, score.truth), p = wilson(score.right, score.found);
-    std::printf("%-14s %6d %6d %6d  %.3f (%.3f to %.3f) %.3f (%.3f to %.3f)\n", kind.c_str(), score.truth,
-                score.found, score.right, score.recall(), r.low, r.high, score.precision(), p.low, p.high);
+std::vector<TrainingRoom> noisy_held_out(const Arguments& arguments, double noise) {
+  std::vector<TrainingRoom> rooms;
+  for (int building = 0; building < arguments.buildings; ++building) {
+    if (!is_held_out(arguments, building)) continue;
+    std::vector<TrainingRoom> more = simulated_building(arguments, building, noise);
+    std::move(more.begin(), more.end(), std::back_inserter(rooms));
   }
-  if (!mistakes) return;
-  for (const auto& [kind, score] : scores)
-    for (const std::string& mistake : score.mistakes) std::printf("  %s\n", mistake.c_str());
+  return rooms;
 }
+
+using KnownFloors = std::vector<std::pair<std::string, std::vector<TrainingRoom>>>;
 
 void print_confusion(const Forest& forest, const std::vector<Sample>& samples) {
   std::printf("\nheld-out samples, rows: truth, columns: the forest's answer\n%-10s", "");
@@ -96,7 +84,7 @@ void print_importance(const Forest& forest, const std::vector<Sample>& samples, 
     std::printf("%-16s %7.4f\n", forest.features[i].c_str(), lost[i]);
 }
 
-Forest trained(const Task& task, const Arguments& arguments) {
+Forest trained(const Task& task, const Arguments& arguments, const KnownFloors& floors) {
   std::vector<Sample> train, held_out;
   Scores scores;
   std::vector<TrainingRoom> held_out_rooms;
@@ -119,6 +107,10 @@ Forest trained(const Task& task, const Arguments& arguments) {
   print_confusion(forest, held_out);
   print_importance(forest, held_out, arguments.seed);
   print_scores("held-out simulated buildings", score_rooms(task, forest, held_out_rooms), arguments.mistakes);
+  if (arguments.ablation)
+    print_ablation(
+        task, train, options, held_out_rooms, [&](double noise) { return noisy_held_out(arguments, noise); },
+        floors);
   return forest;
 }
 
@@ -132,7 +124,9 @@ std::vector<TrainingRoom> perceived_floor(const fs::path& floor) {
     if (!fs::exists(floor / "scans" / room.id)) return;
     rooms[i].truth = room;
     try {
-      Perception found = perceive_structure(registered(read_room_scans(floor / "scans" / room.id)), room.id);
+      PerceptionOptions options;
+      options.find_furniture = false;  // the openings tell which way round the room is
+      Perception found = perceive(registered(read_room_scans(floor / "scans" / room.id)), room.id, options);
       rooms[i].cloud = std::move(found.cloud);
       rooms[i].room = std::move(found.observation);
       rooms[i].truth = aligned_truth(room, rooms[i].room);
@@ -146,12 +140,14 @@ std::vector<TrainingRoom> perceived_floor(const fs::path& floor) {
 
 int train(const Arguments& arguments) {
   const Task task = task_named(arguments.task);
+  KnownFloors floors;
+  for (const std::string& floor : arguments.test_floors) floors.emplace_back(floor, perceived_floor(floor));
   const Forest forest = arguments.model.empty()
-                            ? trained(task, arguments)
+                            ? trained(task, arguments, floors)
                             : forest_from_text(read_file(arguments.model), task.name, task.features,
                                                task.classes, arguments.model);
-  for (const std::string& floor : arguments.test_floors)
-    print_scores(floor, score_rooms(task, forest, perceived_floor(floor)), arguments.mistakes);
+  for (const auto& [name, rooms] : floors)
+    print_scores(name, score_rooms(task, forest, rooms), arguments.mistakes);
   if (!arguments.output.empty()) {
     const std::string text = to_text(forest);
     write_file(arguments.output, text);
@@ -187,6 +183,10 @@ Verb declare_train(CLI::App& gramap) {
   verb->add_option("--test", arguments->test_floors,
                    "Floor folders with scans and truth.geojson to score on as well; never trained on");
   verb->add_flag("--mistakes", arguments->mistakes, "List everything missed and everything found in vain");
+  verb->add_flag("--ablation", arguments->ablation,
+                 "Also print recall and precision without each group of features, with a single scanner "
+                 "position, and at two and three times the noise")
+      ->excludes(verb->get_option("--model"));
   return [arguments] { return train(*arguments); };
 }
 

@@ -100,8 +100,12 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     const bool last = &placed == &fit.best.rooms.back();
     room.outline = slab(space, placed.start_m, last ? problem.length_m : placed.start_m + placed.width_m);
     const Vec2 along = (space.end - space.start).normalized(), left(-along.y(), along.x());
+    if (placed.depth_m >= 0) {  // one of several rooms one behind the other
+      const Vec2 near = space.start + placed.depth_start_m * left;
+      room.outline = clipped(clipped(room.outline, near, left), near + placed.depth_m * left, -left);
+    }
     for (const Vec2& point : room.outline)
-      room.depth_m = std::max(room.depth_m, (point - space.start).dot(left));
+      room.depth_m = std::max(room.depth_m, (point - space.start).dot(left) - placed.depth_start_m);
     for (const int index : placed.evidence) {
       const RoomEvidence& evidence = problem.rooms[static_cast<std::size_t>(index)];
       room.origin = Origin::observed;
@@ -171,6 +175,15 @@ SpaceFit fit_forgiving(const RuleSet& rules, const SpaceProblem& problem, const 
   return best;
 }
 
+void add_spaces(FittedFloor& fitted, const std::vector<SpaceProblem>& problems,
+                const std::vector<SpaceFit>& fits) {
+  std::set<std::string> taken;
+  for (const FittedRoom& room : fitted.hallways) taken.insert(room.id);
+  for (const FittedRoom& room : fitted.fixed) taken.insert(room.id);
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    add_space(fitted, fitted.floor.spaces[i], problems[i], fits[i], taken);
+}
+
 void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                 const FitOptions& options) {
   std::vector<SpaceFit> fits(problems.size());
@@ -185,11 +198,7 @@ void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<Spa
   for (const std::exception_ptr& fault : faults)
     if (fault) std::rethrow_exception(fault);  // the first space in file order, whichever thread was first
 
-  std::set<std::string> taken;
-  for (const FittedRoom& room : fitted.hallways) taken.insert(room.id);
-  for (const FittedRoom& room : fitted.fixed) taken.insert(room.id);
-  for (std::size_t i = 0; i < problems.size(); ++i)
-    add_space(fitted, fitted.floor.spaces[i], problems[i], fits[i], taken);
+  add_spaces(fitted, problems, fits);
 }
 
 /// ln of the joint probability of all spaces that the hallway shows doors of; minus infinity when one can't
@@ -311,6 +320,15 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
   for (SpaceProblem& problem : problems) problem.rooms = fused(problem.rooms, set_aside);
   add_doors(floor, rules_on_floor(rules, floor), observations, placement, problems, options);
   return problems;
+}
+
+FittedFloor floor_of_layouts(const FloorGroundTruth& floor, const RuleSet& rules,
+                             const std::vector<SpaceProblem>& problems,
+                             const std::vector<SpaceFit>& layouts) {
+  FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, {}));
+  add_spaces(fitted, problems, layouts);
+  furnish(fitted, rules, problems, {});
+  return fitted;
 }
 
 FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,

@@ -37,6 +37,11 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
                       const std::vector<SpaceProblem>& problems,
                       const std::vector<RoomObservation>& observations, const FloorFitOptions& options = {});
 
+/// The floor whose spaces have these layouts (the `best` of each), drawn from the rules for instance, with
+/// the doors, windows and furniture that the rules say its rooms have.
+FittedFloor floor_of_layouts(const FloorGroundTruth& floor, const RuleSet& rules,
+                             const std::vector<SpaceProblem>& problems, const std::vector<SpaceFit>& layouts);
+
 /// The piece of a space between two positions along its reference line, as a clear outline.
 Polygon slab(const Space& space, double start_m, double end_m);
 

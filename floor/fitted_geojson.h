@@ -8,6 +8,9 @@
 
 namespace gramap {
 
+/// The fitted rooms, doors, windows and furniture as the truth kinds.
+FloorTruth truth_of(const FittedFloor& floor);
+
 /// Outline, hallways, fixed rooms, spaces and reference lines as given, and the fitted rooms, doors, windows
 /// and furniture as the truth kinds.
 std::string to_geojson(const FittedFloor& floor);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/overlap.h"
 #include "geometry/polygon.h"
+#include "perception/furniture_features.h"
 #include "perception/furniture_surfaces.h"
 
 namespace gramap {
@@ -12,18 +14,8 @@ namespace {
 constexpr double kCutStep_m = 0.1;
 constexpr double kLeastSide_m = 0.22;
 constexpr int kCutDepth = 2;
-
-/// A rectangle in the frame of a direction: extents along it and to its left.
-struct Extent {
-  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  double area() const { return (u1 - u0) * (v1 - v0); }
-};
-
-Polygon ring_of(const Extent& e, const Vec2& axis) {
-  const Vec2 left(-axis.y(), axis.x());
-  return {e.u0 * axis + e.v0 * left, e.u1 * axis + e.v0 * left, e.u1 * axis + e.v1 * left,
-          e.u0 * axis + e.v1 * left};
-}
+constexpr double kAtWall_m = 0.16;  // a side nearer to a wall than this is at it
+constexpr double kDeepest_m = 0.8;  // no cupboard reaches farther from the wall
 
 double quantile(std::vector<double>& values, double share) {
   const auto nth =
@@ -57,9 +49,9 @@ Vec2 axis_of(const FurnitureSurface& surface, const Vec2& room_axis) {
 /// Makes the boxes of one surface and measures them.
 class Cutter {
  public:
-  Cutter(const FurnitureSurface& surface, const Polygon& outline, const Vec2& room_axis,
+  Cutter(const FurnitureSurface& surface, const FurnitureCells& cells, const Vec2& room_axis,
          FurnitureCandidates& candidates)
-      : surface_(surface), outline_(outline), axis_(axis_of(surface, room_axis)), candidates_(candidates) {}
+      : surface_(surface), cells_(cells), axis_(axis_of(surface, room_axis)), candidates_(candidates) {}
 
   /// The candidate of some of the surface's points, and of its parts; −1 when they are too few or too small.
   int cut(const std::vector<Vec2>& points, int depth, double least_area_m2) {
@@ -68,7 +60,10 @@ class Cutter {
     reach_walls(e);
     if (e.u1 - e.u0 < kLeastSide_m || e.v1 - e.v0 < kLeastSide_m || e.area() < least_area_m2) return -1;
     const auto mine = static_cast<int>(candidates_.all.size());
-    candidates_.all.push_back({ring_of(e, axis_), surface_.top_m, features(points, e), {}});
+    candidates_.all.push_back({ring_of(e, axis_),
+                               surface_.top_m,
+                               furniture_features(cells_, surface_, points, e, axis_, depth == kCutDepth),
+                               {}});
     if (depth == 0) return mine;
     std::vector<int> parts;
     for (const bool across : {false, true}) {
@@ -86,62 +81,57 @@ class Cutter {
   }
 
  private:
-  /// Points at the walls were left to the walls: sides that end near one end at it.
+  /// Points at the walls were left to the walls: sides that end near one end at it. Of a body that only its
+  /// front is seen of, the rest is between the front and the wall behind, where nothing was seen.
   void reach_walls(Extent& e) const {
-    for (const bool across : {false, true}) {
-      const Vec2 direction = across ? Vec2(-axis_.y(), axis_.x()) : axis_,
-                 along = across ? axis_ : Vec2(-axis_.y(), axis_.x());
-      double &low = across ? e.v0 : e.u0, &high = across ? e.v1 : e.u1;
-      const double middle = across ? 0.5 * (e.u0 + e.u1) : 0.5 * (e.v0 + e.v1);
-      for (double* side : {&low, &high}) {
-        const Vec2 at = *side * direction + middle * along;
-        const Vec2 outward = side == &low ? Vec2(-direction) : direction;
-        for (double step = 0; step <= 0.16; step += 0.01)
-          if (!contains(outline_, at + step * outward)) {
-            *side += (side == &low ? -1 : 1) * step;
-            break;
-          }
-      }
+    const bool flat[] = {2 * (e.u1 - e.u0) < e.v1 - e.v0, 2 * (e.v1 - e.v0) < e.u1 - e.u0};
+    double* const sides[] = {&e.u0, &e.u1, &e.v0, &e.v1};
+    const Extent seen = e;
+    for (int i = 0; i < 4; ++i) {
+      const double gap_m = gap_behind(seen, i);
+      const bool hidden = !surface_.top_seen && flat[i / 2] && gap_m <= kDeepest_m && unseen(seen, i, gap_m);
+      if (gap_m <= kAtWall_m || hidden) *sides[i] += (i % 2 == 0 ? -1 : 1) * gap_m;
     }
   }
 
-  std::vector<float> features(const std::vector<Vec2>& points, const Extent& e) const {
-    const double length = std::max(e.u1 - e.u0, e.v1 - e.v0), breadth = std::min(e.u1 - e.u0, e.v1 - e.v0);
-    const Polygon ring = ring_of(e, axis_), hull = convex_hull(points);
-    double wall = 1e9;
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      wall = std::min(wall, distance_to_border(outline_, 0.5 * (ring[i] + ring[(i + 1) % ring.size()])));
-    // The share of the box's cells that hold points.
-    const int columns = std::max(1, static_cast<int>((e.u1 - e.u0) / surface_.cell_m));
-    const int rows = std::max(1, static_cast<int>((e.v1 - e.v0) / surface_.cell_m));
-    std::vector<bool> held(static_cast<std::size_t>(columns * rows));
-    for (const Vec2& p : points) {
-      const double u = (axis_.dot(p) - e.u0) / (e.u1 - e.u0),
-                   v = (-axis_.y() * p.x() + axis_.x() * p.y() - e.v0) / (e.v1 - e.v0);
-      if (u >= 0 && u < 1 && v >= 0 && v < 1)
-        held[static_cast<std::size_t>(static_cast<int>(v * rows) * columns + static_cast<int>(u * columns))] =
-            true;
-    }
-    const double filled =
-        static_cast<double>(std::count(held.begin(), held.end(), true)) / static_cast<double>(held.size());
-    const double below =
-        static_cast<double>(surface_.below.size()) / static_cast<double>(surface_.points.size());
-    const double values[] = {std::abs(signed_area(hull)),
-                             surface_.top_m,
-                             length,
-                             breadth,
-                             length / breadth,
-                             std::abs(signed_area(hull)) / e.area(),
-                             filled,
-                             wall,
-                             static_cast<double>(points.size()) / e.area(),
-                             below,
-                             surface_.top_seen ? 1.0 : 0.0};
-    return {std::begin(values), std::end(values)};
+  Vec2 outward(int side) const {
+    const Vec2 direction = side < 2 ? axis_ : Vec2(-axis_.y(), axis_.x());
+    return side % 2 == 0 ? Vec2(-direction) : direction;
+  }
+
+  static double end_of(const Extent& e, int side) {
+    const double ends[] = {-e.u0, e.u1, -e.v0, e.v1};
+    return ends[side];
+  }
+
+  /// From the middle of a side to the wall that it faces.
+  double gap_behind(const Extent& e, int side) const {
+    const Vec2 along = side < 2 ? Vec2(-axis_.y(), axis_.x()) : axis_;
+    const double middle = side < 2 ? 0.5 * (e.v0 + e.v1) : 0.5 * (e.u0 + e.u1);
+    const Vec2 at = end_of(e, side) * outward(side) + middle * along;
+    double step = 0;
+    while (step <= kDeepest_m && contains(cells_.outline, at + step * outward(side))) step += 0.01;
+    return step;
+  }
+
+  /// Neither floor nor anything else was measured in most of the strip behind a side.
+  bool unseen(const Extent& e, int side, double gap_m) const {
+    const Vec2 along = side < 2 ? Vec2(-axis_.y(), axis_.x()) : axis_;
+    const double from = side < 2 ? e.v0 : e.u0, to = side < 2 ? e.v1 : e.u1;
+    int places = 0, seen = 0;
+    for (double s = from + 0.5 * cells_.cell_m; s < to; s += cells_.cell_m)
+      for (double d = cells_.cell_m; d < gap_m - 0.5 * cells_.cell_m; d += cells_.cell_m) {
+        const Vec2 p = (end_of(e, side) + d) * outward(side) + s * along;
+        const Vec2 at = (p - cells_.low) / cells_.cell_m;
+        if (at.minCoeff() < 0 || at.x() >= cells_.floor.columns || at.y() >= cells_.floor.rows) continue;
+        ++places;
+        seen += cells_.floor.at(static_cast<int>(at.x()), static_cast<int>(at.y())) > 0;
+      }
+    return seen <= 0.2 * places;
   }
 
   const FurnitureSurface& surface_;
-  const Polygon& outline_;
+  const FurnitureCells& cells_;
   Vec2 axis_;
   FurnitureCandidates& candidates_;
 };
@@ -167,8 +157,10 @@ Cutting best_cutting(const FurnitureCandidates& candidates, int at, const Forest
   return best;
 }
 
+/// One of the two hides most of the other in the plan.
 bool same_place(const FurnitureObservation& a, const FurnitureObservation& b) {
-  return contains(a.footprint, centroid(b.footprint)) || contains(b.footprint, centroid(a.footprint));
+  const double smaller = std::min(std::abs(signed_area(a.footprint)), std::abs(signed_area(b.footprint)));
+  return shared_area(a.footprint, b.footprint) > 0.4 * smaller;
 }
 
 }  // namespace
@@ -178,27 +170,20 @@ const std::vector<std::string>& furniture_class_names() {
   return names;
 }
 
-const std::vector<std::string>& furniture_feature_names() {
-  static const std::vector<std::string> names = {"area",          "height",      "length",    "breadth",
-                                                 "aspect",        "hull fill",   "cell fill", "to wall",
-                                                 "points per m2", "faces below", "top seen"};
-  return names;
-}
-
 FurnitureCandidates furniture_candidates(const RegisteredCloud& cloud, const RoomObservation& room,
                                          const FurnitureOptions& options) {
   FurnitureCandidates candidates;
   if (room.outline.size() < 3) return candidates;
-  Polygon outline = room.outline;
-  for (Vec2& p : outline) p -= cloud.origin_m.head<2>();
+  const FurnitureCells cells = furniture_cells(cloud, room, options);
+  const Polygon& outline = cells.outline;
   std::size_t longest = 0;
   const auto edge = [&](std::size_t i) { return Vec2(outline[(i + 1) % outline.size()] - outline[i]); };
   for (std::size_t i = 1; i < outline.size(); ++i)
     if (edge(i).norm() > edge(longest).norm()) longest = i;
   const Vec2 room_axis = edge(longest).normalized();
-  for (const FurnitureSurface& surface : furniture_surfaces(cloud, room, options)) {
+  for (const FurnitureSurface& surface : furniture_surfaces(cells, options)) {
     const int root =
-        Cutter(surface, outline, room_axis, candidates).cut(surface.points, kCutDepth, options.least_area_m2);
+        Cutter(surface, cells, room_axis, candidates).cut(surface.points, kCutDepth, options.least_area_m2);
     if (root >= 0) candidates.roots.push_back(root);
   }
   return candidates;
@@ -207,27 +192,33 @@ FurnitureCandidates furniture_candidates(const RegisteredCloud& cloud, const Roo
 std::vector<FurnitureObservation> find_furniture(const RegisteredCloud& cloud, const RoomObservation& room,
                                                  const Forest& forest, const FurnitureOptions& options) {
   const FurnitureCandidates candidates = furniture_candidates(cloud, room, options);
-  std::vector<FurnitureObservation> found;
+  struct Piece {
+    FurnitureObservation observed;
+    double sure;
+  };
+  std::vector<Piece> found;
   for (const int root : candidates.roots)
     for (const int piece : best_cutting(candidates, root, forest).pieces) {
       const FurnitureCandidate& candidate = candidates.all[static_cast<std::size_t>(piece)];
       const std::vector<double> votes = forest.votes(candidate.features);
-      if (1 - votes[kNoFurniture] < options.least_confidence) continue;
+      const double sure = 1 - votes[kNoFurniture];
+      if (sure < options.least_confidence) continue;
       const auto best = std::max_element(votes.begin() + kTable, votes.end()) - votes.begin();
       FurnitureObservation observed;
       observed.type = furniture_class_names()[static_cast<std::size_t>(best)];
       for (const Vec2& p : candidate.footprint) observed.footprint.push_back(p + cloud.origin_m.head<2>());
       observed.top_m = candidate.top_m;
       observed.confidence = votes[static_cast<std::size_t>(best)];
-      found.push_back(std::move(observed));
+      found.push_back({std::move(observed), sure});
     }
-  // Of two things in one place (the shelves of a cupboard, say) the higher one holds the other.
+  // Of two things in one place (a cupboard's top and its front, say) the likelier one stays.
   std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.top_m > b.top_m; });
+                   [](const Piece& a, const Piece& b) { return a.sure > b.sure; });
   std::vector<FurnitureObservation> kept;
-  for (FurnitureObservation& one : found)
-    if (std::none_of(kept.begin(), kept.end(), [&](const auto& other) { return same_place(one, other); }))
-      kept.push_back(std::move(one));
+  for (Piece& one : found)
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const auto& other) { return same_place(one.observed, other); }))
+      kept.push_back(std::move(one.observed));
   std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) {
     const Vec2 p = centroid(a.footprint), q = centroid(b.footprint);
     return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y());

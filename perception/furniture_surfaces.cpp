@@ -15,54 +15,16 @@ constexpr double kThickness_m = 0.05;  // points of one level surface lie within
 constexpr double kStep_m = 0.04;       // neighbouring cells of one surface differ by less
 constexpr int kLeastFaceBins = 5;      // an upright face is at least so many bins high
 constexpr double kBin_m = 0.1;         // of the height, where upright faces are looked for
-
-/// The points of a room's inside by cells of the plan.
-struct Columns {
-  Vec2 low = Vec2::Zero();
-  double cell_m = 0.1;
-  Raster<std::vector<Eigen::Vector3f>> cells;  ///< plan coordinates, and height over the floor
-};
+constexpr double kFilledShare = 0.55;  // of a face's bins hold points
+constexpr double kBodyStep_m = 0.1;    // neighbouring faces of one body differ by less
+constexpr double kLeastShare = 0.35;   // of the floor's density is on a level surface
+constexpr double kEven_m = 0.03;
 
 struct Level {
   int column, row;
   float z;
   int count;
 };
-
-double floor_density(const RegisteredCloud& cloud, const RoomObservation& room, const Polygon& outline) {
-  const double floor_z = room.floor_z_m - cloud.origin_m.z();
-  const auto on_floor = std::count_if(cloud.points_m.begin(), cloud.points_m.end(), [&](const Point& p) {
-    return std::abs(p.z() - floor_z) < 0.06 && contains(outline, p.head<2>().cast<double>());
-  });
-  return std::max(1.0, static_cast<double>(on_floor)) / std::max(0.1, signed_area(outline));
-}
-
-Columns columns_of(const RegisteredCloud& cloud, const RoomObservation& room, const Polygon& outline,
-                   double cell_m, const FurnitureOptions& options) {
-  Columns columns;
-  columns.cell_m = cell_m;
-  columns.low = outline[0];
-  Vec2 high = outline[0];
-  for (const Vec2& p : outline) columns.low = columns.low.cwiseMin(p), high = high.cwiseMax(p);
-  columns.cells = {static_cast<int>((high.x() - columns.low.x()) / cell_m) + 1,
-                   static_cast<int>((high.y() - columns.low.y()) / cell_m) + 1};
-  const double floor_z = room.floor_z_m - cloud.origin_m.z();
-  const double top = std::min(options.highest_m, room.ceiling_z_m - room.floor_z_m - 0.12);
-  for (const Point& p : cloud.points_m) {
-    const double z = p.z() - floor_z;
-    const Vec2 plan = p.head<2>().cast<double>();
-    if (z < 0.08 || z > top || (plan.array() < columns.low.array()).any() ||
-        (plan.array() > high.array()).any())
-      continue;
-    if (!contains(outline, plan) || distance_to_border(outline, plan) < options.from_wall_m) continue;
-    const Vec2 at = (plan - columns.low) / cell_m;
-    columns.cells.at(static_cast<int>(at.x()), static_cast<int>(at.y()))
-        .emplace_back(p.x(), p.y(), static_cast<float>(z));
-  }
-  for (auto& column : columns.cells.cells)
-    std::sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
-  return columns;
-}
 
 /// The heights at which a column holds at least `least` points within a surface's thickness, fullest first;
 /// clearly more than an upright face with the column's other points would hold there by chance.
@@ -117,13 +79,38 @@ std::vector<std::vector<int>> groups_of(const std::vector<Thing>& things, int co
   return groups;
 }
 
+/// Evens the points out and takes them; how dense the cloud is must not count where a thing ends.
+class EvenPoints {
+ public:
+  explicit EvenPoints(const FurnitureCells& cells)
+      : cells_(cells),
+        taken_(static_cast<int>(cells.points.columns * cells.cell_m / kEven_m) + 1,
+               static_cast<int>(cells.points.rows * cells.cell_m / kEven_m) + 1) {}
+  void add(const Eigen::Vector3f& p) {
+    const Vec2 plan = p.head<2>().cast<double>(), at = (plan - cells_.low) / kEven_m;
+    auto& taken = taken_.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    ++measured_;
+    if (taken == 0) points_.push_back(plan);
+    taken = 1;
+  }
+  void give(FurnitureSurface& surface) {
+    surface.weight = static_cast<double>(measured_) / std::max(1.0, static_cast<double>(points_.size()));
+    surface.points = std::move(points_);
+  }
+
+ private:
+  const FurnitureCells& cells_;
+  Raster<std::uint8_t> taken_;
+  std::vector<Vec2> points_;
+  int measured_ = 0;
+};
+
 /// The points of the group's cells and of those around them at its height, with the faces below it.
 FurnitureSurface surface_of(const std::vector<Level>& levels, const std::vector<int>& group,
-                            const Columns& columns) {
+                            const FurnitureCells& cells) {
   FurnitureSurface surface;
-  surface.cell_m = columns.cell_m;
   double weighted = 0, weight = 0;
-  Raster<std::uint8_t> near(columns.cells.columns, columns.cells.rows);
+  Raster<std::uint8_t> near(cells.points.columns, cells.points.rows);
   for (const int i : group) {
     const Level& level = levels[static_cast<std::size_t>(i)];
     weighted += static_cast<double>(level.z) * level.count, weight += level.count;
@@ -134,28 +121,22 @@ FurnitureSurface surface_of(const std::vector<Level>& levels, const std::vector<
     near.at(level.column, level.row) = 2;
   }
   surface.top_m = weighted / weight;
+  EvenPoints points(cells);
   for (int row = 0; row < near.rows; ++row)
     for (int column = 0; column < near.columns; ++column) {
-      const auto& column_points = columns.cells.at(column, row);
+      const auto& column_points = cells.points.at(column, row);
       if (near.at(column, row) == 0 || column_points.empty()) continue;
       // Beside the surface something higher may stand, whose faces are not this surface's.
       if (near.at(column, row) == 1 && column_points.back().z() > surface.top_m + kThickness_m) continue;
       for (const Eigen::Vector3f& p : column_points) {
         if (std::abs(p.z() - surface.top_m) < 0.5 * kThickness_m + 0.01)
-          surface.points.push_back(p.head<2>().cast<double>());
+          points.add(p);
         else if (p.z() < surface.top_m)
-          surface.below.push_back(p.z());
+          ++surface.below;
       }
     }
+  points.give(surface);
   return surface;
-}
-
-/// A surface explains the faces below its border as well.
-void raise_around(Raster<float>& top_m, const Level& level) {
-  for (int row = std::max(0, level.row - 1); row <= std::min(top_m.rows - 1, level.row + 1); ++row)
-    for (int column = std::max(0, level.column - 1); column <= std::min(top_m.columns - 1, level.column + 1);
-         ++column)
-      top_m.at(column, row) = std::max(top_m.at(column, row), level.z);
 }
 
 struct Face {
@@ -163,78 +144,66 @@ struct Face {
   float top;
 };
 
-/// Columns whose points stand one above the other from knee height up, and higher than any surface there:
-/// `surface_top_m` has the heights of those.
-std::vector<Face> upright_faces(const Columns& columns, const Raster<float>& surface_top_m) {
+/// Columns whose points stand one above the other from knee height up.
+std::vector<Face> upright_faces(const FurnitureCells& cells) {
   std::vector<Face> faces;
-  for (int row = 0; row < columns.cells.rows; ++row)
-    for (int column = 0; column < columns.cells.columns; ++column) {
+  for (int row = 0; row < cells.points.rows; ++row)
+    for (int column = 0; column < cells.points.columns; ++column) {
+      const auto& held = cells.points.at(column, row);
       std::vector<int> bins(26);
-      for (const Eigen::Vector3f& p : columns.cells.at(column, row))
+      for (const Eigen::Vector3f& p : held)
         ++bins[std::min<std::size_t>(25, static_cast<std::size_t>(p.z() / kBin_m))];
       int filled = 0, top = 0;
       for (int bin = 2; bin < 25; ++bin)
         if (bins[static_cast<std::size_t>(bin)] > 0) ++filled, top = bin;
-      const auto& held = columns.cells.at(column, row);
-      const bool higher = !held.empty() && held.back().z() > surface_top_m.at(column, row) + 0.15F;
-      if (higher && top >= kLeastFaceBins && filled >= 0.55 * (top - 1))
+      if (top >= kLeastFaceBins && filled >= kFilledShare * (top - 1))
         faces.push_back({column, row, held.back().z()});
     }
   return faces;
 }
 
 FurnitureSurface body_of(const std::vector<Face>& faces, const std::vector<int>& group,
-                         const Columns& columns) {
+                         const FurnitureCells& cells) {
   FurnitureSurface body;
-  body.cell_m = columns.cell_m;
   body.top_seen = false;
   std::vector<float> tops;
+  EvenPoints points(cells);
   for (const int i : group) {
     const Face& face = faces[static_cast<std::size_t>(i)];
     tops.push_back(face.top);
-    for (const Eigen::Vector3f& p : columns.cells.at(face.column, face.row)) {
-      body.points.push_back(p.head<2>().cast<double>());
-      body.below.push_back(p.z());
-    }
+    for (const Eigen::Vector3f& p : cells.points.at(face.column, face.row)) points.add(p), ++body.below;
   }
   const auto nth = tops.begin() + static_cast<std::ptrdiff_t>(0.7 * static_cast<double>(tops.size() - 1));
   std::nth_element(tops.begin(), nth, tops.end());
   body.top_m = *nth;
+  points.give(body);
   return body;
 }
 
 }  // namespace
 
-std::vector<FurnitureSurface> furniture_surfaces(const RegisteredCloud& cloud, const RoomObservation& room,
+std::vector<FurnitureSurface> furniture_surfaces(const FurnitureCells& cells,
                                                  const FurnitureOptions& options) {
-  Polygon outline = room.outline;
-  for (Vec2& p : outline) p -= cloud.origin_m.head<2>();
-  const double density = floor_density(cloud, room, outline);
-  const double cell_m = std::clamp(2.5 / std::sqrt(density), 0.05, 0.12);
-  const Columns columns = columns_of(cloud, room, outline, cell_m, options);
-  const int least = std::max(3, static_cast<int>(std::lround(0.35 * density * cell_m * cell_m)));
-
+  const int columns = cells.points.columns, rows = cells.points.rows;
+  const double cell_m2 = cells.cell_m * cells.cell_m, room_m2 = std::abs(signed_area(cells.outline));
+  const int least = std::max(3, static_cast<int>(std::lround(kLeastShare * cells.floor_density * cell_m2)));
   std::vector<Level> levels;
-  for (int row = 0; row < columns.cells.rows; ++row)
-    for (int column = 0; column < columns.cells.columns; ++column)
-      add_levels(columns.cells.at(column, row), column, row, least, levels);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      add_levels(cells.points.at(column, row), column, row, least, levels);
   std::erase_if(levels, [&](const Level& level) { return level.z < options.lowest_m; });
   std::vector<FurnitureSurface> found;
-  Raster<float> surface_top_m(columns.cells.columns, columns.cells.rows);
   const auto same_height = [](const Level& a, const Level& b) { return std::abs(a.z - b.z) < kStep_m; };
-  for (const auto& group : groups_of(levels, columns.cells.columns, columns.cells.rows, 1, same_height)) {
-    const double area = static_cast<double>(group.size()) * cell_m * cell_m;
-    if (group.size() < 2 || area < 0.4 * options.least_area_m2 ||
-        area > options.most_floor_share * signed_area(outline))
+  for (const auto& group : groups_of(levels, columns, rows, 1, same_height)) {
+    const double area = static_cast<double>(group.size()) * cell_m2;
+    if (group.size() < 2 || area < 0.4 * options.least_area_m2 || area > options.most_floor_share * room_m2)
       continue;
-    found.push_back(surface_of(levels, group, columns));
-    for (const int i : group) raise_around(surface_top_m, levels[static_cast<std::size_t>(i)]);
+    found.push_back(surface_of(levels, group, cells));
   }
-
-  const std::vector<Face> faces = upright_faces(columns, surface_top_m);
-  const auto any = [](const Face&, const Face&) { return true; };
-  for (const auto& group : groups_of(faces, columns.cells.columns, columns.cells.rows, 2, any))
-    if (group.size() >= 4) found.push_back(body_of(faces, group, columns));
+  const std::vector<Face> faces = upright_faces(cells);
+  const auto as_high = [](const Face& a, const Face& b) { return std::abs(a.top - b.top) < kBodyStep_m; };
+  for (const auto& group : groups_of(faces, columns, rows, 2, as_high))
+    if (group.size() >= 4) found.push_back(body_of(faces, group, cells));
   return found;
 }
 

@@ -67,13 +67,34 @@ BuildingFurniture chair_like(const Vec2& middle, const Vec2& along, double size,
   return chair;
 }
 
+/// What lies and stands on a table: papers, screens, boxes.
+void add_clutter(BuildingRoom& room, std::size_t table, Random& random) {
+  const Polygon top = room.furniture[table].outline;
+  const double height_m = room.furniture[table].top_m;
+  const OrientedBox box = oriented_box(top);
+  const Vec2 across(-box.axis.y(), box.axis.x());
+  for (int things = random.below(4); things > 0; --things) {
+    const Vec2 middle = box.corner + random.uniform(0.15, 0.85) * box.length_m * box.axis +
+                        random.uniform(0.15, 0.85) * box.breadth_m * across;
+    const double thickness_m = random.chance(0.5) ? random.uniform(0.02, 0.1) : random.uniform(0.2, 0.45);
+    BuildingFurniture thing{
+        kClutter,
+        rectangle(middle, box.axis, random.uniform(0.15, 0.55),
+                  thickness_m < 0.15 ? random.uniform(0.15, 0.35) : random.uniform(0.05, 0.25)),
+        height_m, height_m + thickness_m};
+    if (std::all_of(thing.outline.begin(), thing.outline.end(),
+                    [&](const Vec2& p) { return contains(top, p); }))
+      room.furniture.push_back(std::move(thing));
+  }
+}
+
 /// One to four equal tables side by side or head to head, with chairs around.
 void add_tables(BuildingRoom& room, Random& random) {
   const double length = random.uniform(1.0, 2.0), breadth = random.uniform(0.6, 1.0),
                height = random.uniform(0.68, 0.82);
   const bool closed = random.chance(0.4);
-  const int kind =
-      random.below(6);  // alone at a wall (twice as often), alone, side by side, around a corner, round
+  // Alone at a wall (twice as often), alone, side by side (twice as often), around a corner, round, a block.
+  const int kind = random.below(8);
   const double angle =
       random.chance(0.8) ? 0.5 * 3.141592653589793 * random.below(4) : random.uniform(0, 6.283);
   Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
@@ -90,7 +111,7 @@ void add_tables(BuildingRoom& room, Random& random) {
     if (!table(outline)) return;
   } else if (kind == 2) {
     if (!table(rectangle(middle, along, length, breadth))) return;
-  } else if (kind == 3) {
+  } else if (kind == 3 || kind == 6) {
     if (!table(rectangle(middle - 0.501 * breadth * across, along, length, breadth))) return;
     table(rectangle(middle + 0.501 * breadth * across, along, length, breadth));
   } else if (kind == 4) {
@@ -99,6 +120,10 @@ void add_tables(BuildingRoom& room, Random& random) {
     table(rectangle(
         middle + side * (0.5 * length + 0.501 * breadth) * along + 0.5 * (length - breadth) * across, across,
         length, breadth));
+  } else if (kind == 7) {
+    if (!table(rectangle(middle - 0.501 * breadth * across, along, length, breadth))) return;
+    table(rectangle(middle + 0.501 * breadth * across, along, length, breadth));
+    table(rectangle(middle + (0.5 * length + 0.501 * breadth) * along, across, length, breadth));
   } else {
     Polygon round;
     const double radius = random.uniform(0.4, 0.7);
@@ -109,6 +134,8 @@ void add_tables(BuildingRoom& room, Random& random) {
     if (!table(round)) return;
   }
   const auto tables = room.furniture.size();
+  if (random.chance(0.5))
+    for (std::size_t i = before; i < tables; ++i) add_clutter(room, i, random);
   for (std::size_t i = before; i < tables; ++i)
     for (int chairs = random.below(4); chairs > 0; --chairs) {
       const Polygon& ring = room.furniture[i].outline;
@@ -122,6 +149,14 @@ void add_tables(BuildingRoom& room, Random& random) {
     }
 }
 
+/// A flight of stairs along a wall: no furniture, but level surfaces all the same.
+void add_stairs(BuildingRoom& room, Random& random) {
+  BuildingFurniture stairs{kStairs,
+                           at_wall(room, random.uniform(1.5, 3.5), random.uniform(0.9, 1.5), 0.01, random), 0,
+                           random.uniform(1.0, 2.2)};
+  place(room, std::move(stairs), 0.02);
+}
+
 /// Cupboards, shelves, sideboards, sofas and boxes.
 void add_body(BuildingRoom& room, Random& random) {
   const double drawn = random.uniform();
@@ -130,13 +165,15 @@ void add_body(BuildingRoom& room, Random& random) {
     piece.outline = at_wall(room, random.uniform(0.6, 2.0), random.uniform(0.3, 0.65),
                             random.uniform(0.001, 0.03), random);
     piece.top_m = random.uniform(1.6, 2.25);
+    if (random.chance(0.25)) piece.type = kShelf;
   } else if (drawn < 0.85) {
     piece.outline = at_wall(room, random.uniform(0.6, 2.0), random.uniform(0.3, 0.65),
                             random.uniform(0.001, 0.03), random);
     piece.top_m = random.uniform(0.6, 1.4);
   } else if (drawn < 0.93) {
     piece.outline = at_wall(room, random.uniform(1.5, 2.3), random.uniform(0.75, 1.0), 0.05, random);
-    piece.top_m = random.uniform(0.4, 0.85);
+    piece.top_m = random.uniform(0.6, 0.95);
+    piece.type = kSofa;
   } else {
     piece.outline = rectangle(somewhere(room, random), Vec2::UnitX(), random.uniform(0.35, 0.8),
                               random.uniform(0.3, 0.6));
@@ -158,6 +195,7 @@ void furnish(BuildingRoom& room, double density, Random& random) {
     for (int i = 0; i < 6 * count && room.furniture.size() < before + static_cast<std::size_t>(count); ++i)
       add();
   };
+  if (random.chance(0.1 * density)) add_stairs(room, random);
   fill(pieces(7), [&] { add_tables(room, random); });
   fill(pieces(6), [&] { add_body(room, random); });
   fill(pieces(25), [&] {

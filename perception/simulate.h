@@ -20,14 +20,25 @@ struct BuildingOpening {
   double head_m = 0;
 };
 
+/// Types with a shape of their own, besides "table" and "chair".
+inline constexpr const char* kSofa = "sofa";
+inline constexpr const char* kShelf = "shelf";      ///< open to the front
+inline constexpr const char* kClutter = "clutter";  ///< what lies on furniture
+inline constexpr const char* kStairs = "stairs";
+
 /// A piece of furniture; heights above the room's floor, metres. A "table" is simulated as a top on legs, a
-/// "chair" as a seat on legs (with a back when it is taller than 0.6 m), anything else as a closed body.
+/// "chair" as a seat on legs (with a back when it is taller than 0.6 m), a sofa by its seat, back and arms, a
+/// shelf by its boards; anything else as a closed body. Sofas and shelves have their back at the outline's
+/// first edge, stairs rise along the outline's longer side.
 struct BuildingFurniture {
   std::string type;
   Polygon outline;
   double bottom_m = 0;
   double top_m = 0;
   bool closed = false;  ///< a table or chair with panels down to the floor
+
+  /// Not what lies on furniture, and no part of the building.
+  bool counts() const { return type != kClutter && type != kStairs; }
 };
 
 struct BuildingRoom {

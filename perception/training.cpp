@@ -111,8 +111,16 @@ Task opening_task(const OpeningOptions& options) {
     for (const char* kind : {"door", "window"}) scores.emplace_back(kind, score_openings(found, truth, kind));
     return scores;
   };
-  return {"openings", opening_feature_names(), opening_class_names(),
-          [options](const TrainingRoom& known) { return opening_samples(known, options); }, score};
+  return {"openings",
+          opening_feature_names(),
+          opening_class_names(),
+          {{"size", {"area", "width/height", "width/wall", "height/wall"}},
+           {"place", {"to top", "to bottom", "to left", "to right"}},
+           {"plane fit", {"plane rms"}},
+           {"labels", {"empty share", "occupied share", "occluded share"}},
+           {"edges", {"interior boxes", "inverted Us"}}},
+          [options](const TrainingRoom& known) { return opening_samples(known, options); },
+          score};
 }
 
 namespace {

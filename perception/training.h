@@ -30,6 +30,8 @@ RegisteredCloud registered(const SimulatedRoom& room);
 struct Task {
   std::string name;
   std::vector<std::string> features, classes;
+  /// Features that say something of one kind, by name.
+  std::vector<std::pair<std::string, std::vector<std::string>>> feature_groups;
   std::function<std::vector<Sample>(const TrainingRoom&)> samples;
   /// Scores by kind of what the whole chain finds in a room with a forest.
   std::function<std::vector<std::pair<std::string, struct Score>>(const TrainingRoom&, const Forest&)> score;

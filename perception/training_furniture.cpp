@@ -1,7 +1,10 @@
 // Furniture's side of training: labelled candidates and scores.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
+#include "geometry/overlap.h"
 #include "geometry/polygon.h"
 #include "perception/training.h"
 #include "perception/truth_match.h"
@@ -13,28 +16,35 @@ int label_of(const std::string& type) {
   return type == "table" ? kTable : type == "chair" ? kChair : kOther;
 }
 
+/// Of the boxes that cuts make and that hold no piece, so many stand for each that is trained on: there are a
+/// hundred of them for every piece, and they resemble each other.
+constexpr int kCutsForEach = 5;
+
 /// Candidates labelled by the true piece that they overlap by at least 0.7, none below 0.5.
 std::vector<Sample> furniture_samples(const TrainingRoom& known, const FurnitureOptions& options) {
   std::vector<Sample> samples;
   const FurnitureCandidates candidates = furniture_candidates(known.cloud, known.room, options);
-  const auto add = [&](const FurnitureCandidate& candidate) {
+  int cuts = 0;
+  for (std::size_t i = 0; i < candidates.all.size(); ++i) {
+    const FurnitureCandidate& candidate = candidates.all[i];
     double best = 0;
     int label = kNoFurniture;
     Polygon footprint = candidate.footprint;
     for (Vec2& p : footprint) p += known.cloud.origin_m.head<2>();
     for (const BuildingFurniture& piece : known.truth.furniture) {
-      if ((centroid(piece.outline) - centroid(footprint)).norm() > 2) continue;
-      if (std::abs(piece.top_m - candidate.top_m) > 0.25 && piece.type != "chair") continue;
-      const double share = plan_overlap(piece.outline, footprint);
+      if (!piece.counts() || (centroid(piece.outline) - centroid(footprint)).norm() > 1) continue;
+      const bool has_seat = piece.type == "chair" || piece.type == kSofa;
+      if (std::abs(piece.top_m - candidate.top_m) > 0.25 && !has_seat) continue;
+
+      const double share = intersection_over_union(piece.outline, footprint);
       if (share > best) best = share, label = label_of(piece.type);
     }
-    if (best >= 0.5 && best < 0.7) return;
-    samples.push_back({candidate.features, best < 0.5 ? static_cast<int>(kNoFurniture) : label, known.group});
-  };
-  for (const int root : candidates.roots) {
-    const FurnitureCandidate& whole = candidates.all[static_cast<std::size_t>(root)];
-    add(whole);
-    for (const int part : whole.parts) add(candidates.all[static_cast<std::size_t>(part)]);
+    if (best >= 0.5 && best < 0.7) continue;
+    if (best < 0.5) label = kNoFurniture;
+    const bool whole = std::find(candidates.roots.begin(), candidates.roots.end(), static_cast<int>(i)) !=
+                       candidates.roots.end();
+    if (best < 0.5 && !whole && ++cuts % kCutsForEach != 0) continue;
+    samples.push_back({candidate.features, label, known.group});
   }
   return samples;
 }
@@ -51,7 +61,8 @@ std::string described(const char* fault, const std::string& type, const Polygon&
 /// "furniture": found where there is some, of whatever class; "class right": of those, the ones called by
 /// their name.
 std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<FurnitureObservation>& found,
-                                                           const BuildingRoom& truth) {
+                                                           BuildingRoom truth) {
+  std::erase_if(truth.furniture, [](const BuildingFurniture& piece) { return !piece.counts(); });
   std::map<std::string, Score> scores;
   Score& any = scores["furniture"];
   Score& named = scores["class right"];
@@ -65,7 +76,7 @@ std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<Fur
     bool right = false;
     for (std::size_t i = 0; i < truth.furniture.size() && !right; ++i) {
       const BuildingFurniture& piece = truth.furniture[i];
-      if (taken[i] || plan_overlap(one.footprint, piece.outline) < 0.5) continue;
+      if (taken[i] || intersection_over_union(one.footprint, piece.outline) < 0.5) continue;
       right = taken[i] = true;
       ++any.right, ++named.truth, ++named.found;
       const bool same = furniture_class_names()[static_cast<std::size_t>(label_of(piece.type))] == one.type;
@@ -86,7 +97,16 @@ std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<Fur
 }  // namespace
 
 Task furniture_task(const FurnitureOptions& options) {
-  return {"furniture", furniture_feature_names(), furniture_class_names(),
+  return {"furniture",
+          furniture_feature_names(),
+          furniture_class_names(),
+          {{"height", {"height"}},
+           {"size", {"area", "length", "breadth", "aspect"}},
+           {"fill", {"hull fill", "cell fill", "density"}},
+           {"faces", {"faces below", "top seen", "upright share", "floor below"}},
+           {"surroundings",
+            {"to wall", "goes on", "floor beside", "wall beside", "higher beside", "step beside"}},
+           {"whole", {"whole"}}},
           [options](const TrainingRoom& known) { return furniture_samples(known, options); },
           [options](const TrainingRoom& known, const Forest& forest) {
             return score_furniture(find_furniture(known.cloud, known.room, forest, options), known.truth);

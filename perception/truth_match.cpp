@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/overlap.h"
 #include "geometry/polygon.h"
 
 namespace gramap {
@@ -23,11 +24,10 @@ double direction_of(const Polygon& ring) {
 
 }  // namespace
 
-BuildingRoom aligned_truth(const BuildingRoom& truth, const RoomObservation& observed) {
-  double turn = direction_of(observed.outline) - direction_of(truth.outline);
-  turn -= std::numbers::pi / 2 * std::round(turn / (std::numbers::pi / 2));
-  Eigen::Matrix2d rotation;
-  rotation << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+namespace {
+
+BuildingRoom turned_truth(const BuildingRoom& truth, const RoomObservation& observed, double turn_rad) {
+  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
   const Vec2 from = centroid(truth.outline), to = centroid(observed.outline);
   const auto moved = [&](const Vec2& p) { return Vec2(to + rotation * (p - from)); };
   BuildingRoom room = truth;
@@ -36,6 +36,33 @@ BuildingRoom aligned_truth(const BuildingRoom& truth, const RoomObservation& obs
   for (BuildingFurniture& piece : room.furniture)
     for (Vec2& p : piece.outline) p = moved(p);
   return room;
+}
+
+double opening_overlap(const BuildingRoom& room, const RoomObservation& observed) {
+  double sum = 0;
+  for (const OpeningObservation& truth : true_openings(room, observed))
+    for (const OpeningObservation& found : observed.openings)
+      if (found.kind == truth.kind) sum += overlap(found, truth);
+  return sum;
+}
+
+}  // namespace
+
+BuildingRoom aligned_truth(const BuildingRoom& truth, const RoomObservation& observed) {
+  constexpr double kQuarter_rad = std::numbers::pi / 2;
+  double turn = direction_of(observed.outline) - direction_of(truth.outline);
+  turn -= kQuarter_rad * std::round(turn / kQuarter_rad);
+  BuildingRoom best = turned_truth(truth, observed, turn);
+  if (observed.openings.empty()) return best;
+  double best_match =
+      intersection_over_union(best.outline, observed.outline) + opening_overlap(best, observed);
+  for (int quarter = 1; quarter < 4; ++quarter) {
+    BuildingRoom room = turned_truth(truth, observed, turn + quarter * kQuarter_rad);
+    const double match =
+        intersection_over_union(room.outline, observed.outline) + opening_overlap(room, observed);
+    if (match > best_match + 0.2) best = std::move(room), best_match = match;
+  }
+  return best;
 }
 
 std::vector<OpeningObservation> true_openings(const BuildingRoom& aligned, const RoomObservation& observed) {
@@ -69,19 +96,6 @@ double overlap(const OpeningObservation& a, const OpeningObservation& b) {
   if (width <= 0 || height <= 0) return 0;
   const double both = width * height;
   return both / (a.width_m * (a.head_m - a.sill_m) + b.width_m * (b.head_m - b.sill_m) - both);
-}
-
-double plan_overlap(const Polygon& a, const Polygon& b) {
-  Vec2 low = a.at(0), high = low;
-  for (const Polygon* ring : {&a, &b})
-    for (const Vec2& p : *ring) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  int both = 0, either = 0;
-  for (double y = low.y() + 0.005; y < high.y(); y += 0.01)
-    for (double x = low.x() + 0.005; x < high.x(); x += 0.01) {
-      const bool in_a = contains(a, {x, y}), in_b = contains(b, {x, y});
-      both += in_a && in_b, either += in_a || in_b;
-    }
-  return either == 0 ? 0 : static_cast<double>(both) / either;
 }
 
 RoomObservation observation_of_truth(const BuildingRoom& truth,

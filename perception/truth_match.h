@@ -8,8 +8,9 @@
 
 namespace gramap {
 
-/// The true room in the frame of its observation: turned by the difference of their outlines' directions (to
-/// the nearest quarter turn) and shifted centre upon centre. Heights stay above the floor.
+/// The true room in the frame of its observation: turned by the difference of their outlines' directions and
+/// shifted centre upon centre. Of the four quarter turns the least, unless outline and openings found fit
+/// clearly better after another (poses in a frame of the room's own). Heights stay above the floor.
 BuildingRoom aligned_truth(const BuildingRoom& truth, const RoomObservation& observed);
 
 /// The true openings as stretches of the observed room's walls; those on no observed wall (farther than 0.3
@@ -18,9 +19,6 @@ std::vector<OpeningObservation> true_openings(const BuildingRoom& aligned, const
 
 /// Intersection over union on the wall; 0 on different walls.
 double overlap(const OpeningObservation& a, const OpeningObservation& b);
-
-/// Intersection over union of two simple polygons in the plan, by a raster of 1 cm.
-double plan_overlap(const Polygon& a, const Polygon& b);
 
 /// The room's outline and walls as a perfect observation in the given frame, for training without finding
 /// planes.
