@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/error.h"
+#include "geometry/polygon.h"
 #include "grammar/derive.h"
 
 namespace gramap {
@@ -11,6 +12,26 @@ namespace {
 
 Polygon box(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
+
+/// The rooms' doors as a hallway shows them: on its own face of the wall between.
+void add_hallway_doors(FittedFloor& floor) {
+  const double wall_m = floor.inner_wall_m;
+  for (const FittedRoom& room : floor.rooms)
+    for (const FittedOpening& door : room.openings) {
+      if (door.kind != "door") continue;
+      const Vec2 along = (door.b - door.a).normalized();
+      Vec2 through = wall_m * Vec2(along.y(), -along.x());
+      const Vec2 middle = 0.5 * (door.a + door.b);
+      if (contains(room.outline, middle + through)) through = -through;
+      for (FittedRoom& hallway : floor.hallways) {
+        if (distance_to_border(hallway.outline, middle + through) > 0.02) continue;
+        FittedOpening same = door;
+        same.a += through, same.b += through;
+        hallway.openings.push_back(same);
+        break;
+      }
+    }
 }
 
 }  // namespace
@@ -49,7 +70,9 @@ FittedFloor drawn_floor(const FloorGroundTruth& floor, const RuleSet& rules, std
     Derivation drawn = std::move(SpaceDeriver(here, problems[i]).draw(1, seed + 0x9e37 * i).front());
     layouts[i].best.rooms = std::move(drawn.rooms);
   }
-  return floor_of_layouts(floor, rules, problems, layouts);
+  FittedFloor fitted = floor_of_layouts(floor, rules, problems, layouts);
+  add_hallway_doors(fitted);
+  return fitted;
 }
 
 }  // namespace gramap

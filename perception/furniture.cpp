@@ -14,8 +14,9 @@ namespace {
 constexpr double kCutStep_m = 0.1;
 constexpr double kLeastSide_m = 0.22;
 constexpr int kCutDepth = 2;
-constexpr double kAtWall_m = 0.16;  // a side nearer to a wall than this is at it
-constexpr double kDeepest_m = 0.8;  // no cupboard reaches farther from the wall
+constexpr double kEqualBonus = 1.15;  // tables that make one surface mostly are of one size
+constexpr double kAtWall_m = 0.16;    // a side nearer to a wall than this is at it
+constexpr double kDeepest_m = 0.8;    // no cupboard reaches farther from the wall
 
 double quantile(std::vector<double>& values, double share) {
   const auto nth =
@@ -145,13 +146,20 @@ struct Cutting {
 Cutting best_cutting(const FurnitureCandidates& candidates, int at, const Forest& forest) {
   const FurnitureCandidate& candidate = candidates.all[static_cast<std::size_t>(at)];
   const double sure = 1 - forest.votes(candidate.features)[kNoFurniture];
+  const auto equal = [&](int a, int b) {
+    const double p = std::abs(signed_area(candidates.all[static_cast<std::size_t>(a)].footprint)),
+                 q = std::abs(signed_area(candidates.all[static_cast<std::size_t>(b)].footprint));
+    return std::min(p, q) > 0.85 * std::max(p, q);
+  };
   Cutting best{sure * std::abs(signed_area(candidate.footprint)), {at}};
   for (std::size_t i = 0; i + 1 < candidate.parts.size(); i += 2) {
     Cutting first = best_cutting(candidates, candidate.parts[i], forest);
     Cutting second = best_cutting(candidates, candidate.parts[i + 1], forest);
-    if (first.worth + second.worth <= 1.05 * best.worth)
-      continue;  // one thing unless two are clearly likelier
-    best = {first.worth + second.worth, std::move(first.pieces)};
+    double worth = first.worth + second.worth;
+    if (first.pieces.size() == 1 && second.pieces.size() == 1 && equal(first.pieces[0], second.pieces[0]))
+      worth *= kEqualBonus;
+    if (worth <= 1.05 * best.worth) continue;  // one thing unless two are clearly likelier
+    best = {worth, std::move(first.pieces)};
     best.pieces.insert(best.pieces.end(), second.pieces.begin(), second.pieces.end());
   }
   return best;

@@ -152,7 +152,7 @@ void add_tables(BuildingRoom& room, Random& random) {
 /// A flight of stairs along a wall: no furniture, but level surfaces all the same.
 void add_stairs(BuildingRoom& room, Random& random) {
   BuildingFurniture stairs{kStairs,
-                           at_wall(room, random.uniform(1.5, 3.5), random.uniform(0.9, 1.5), 0.01, random), 0,
+                           at_wall(room, random.uniform(2.5, 4.5), random.uniform(0.9, 1.5), 0.01, random), 0,
                            random.uniform(1.0, 2.2)};
   place(room, std::move(stairs), 0.02);
 }
@@ -195,7 +195,7 @@ void furnish(BuildingRoom& room, double density, Random& random) {
     for (int i = 0; i < 6 * count && room.furniture.size() < before + static_cast<std::size_t>(count); ++i)
       add();
   };
-  if (random.chance(0.1 * density)) add_stairs(room, random);
+  if (random.chance(0.2)) add_stairs(room, random);
   fill(pieces(7), [&] { add_tables(room, random); });
   fill(pieces(6), [&] { add_body(room, random); });
   fill(pieces(25), [&] {

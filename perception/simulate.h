@@ -29,7 +29,7 @@ inline constexpr const char* kStairs = "stairs";
 /// A piece of furniture; heights above the room's floor, metres. A "table" is simulated as a top on legs, a
 /// "chair" as a seat on legs (with a back when it is taller than 0.6 m), a sofa by its seat, back and arms, a
 /// shelf by its boards; anything else as a closed body. Sofas and shelves have their back at the outline's
-/// first edge, stairs rise along the outline's longer side.
+/// first edge, stairs rise along the outline's longer side to a landing.
 struct BuildingFurniture {
   std::string type;
   Polygon outline;

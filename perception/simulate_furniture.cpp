@@ -73,10 +73,13 @@ void add_stairs(std::vector<Face>& faces, const Polygon& outline, double floor_m
   const OrientedBox box = oriented_box(outline);
   const Vec2 across(-box.axis.y(), box.axis.x());
   const int steps = std::max(1, static_cast<int>((top_m - floor_m) / 0.17));
-  const double tread_m = box.length_m / steps, rise_m = (top_m - floor_m) / steps;
-  for (int i = 0; i < steps; ++i)
-    add_prism(faces, rectangle(box.corner + i * tread_m * box.axis, box.axis, tread_m, across, box.breadth_m),
+  const double landing_m = std::min(box.breadth_m, 0.4 * box.length_m);
+  const double tread_m = (box.length_m - landing_m) / steps, rise_m = (top_m - floor_m) / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double from = i * tread_m, to = i + 1 == steps ? box.length_m : from + tread_m;
+    add_prism(faces, rectangle(box.corner + from * box.axis, box.axis, to - from, across, box.breadth_m),
               floor_m, floor_m + (i + 1) * rise_m);
+  }
 }
 
 }  // namespace
