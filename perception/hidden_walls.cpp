@@ -7,6 +7,7 @@ namespace gramap {
 namespace {
 
 constexpr std::size_t kPoints = 400000;  // of the cloud that are looked through
+constexpr double kLeastWidthOverNoise = 25;
 
 }  // namespace
 
@@ -36,8 +37,12 @@ std::vector<PlanePatch> find_hidden_walls(const std::vector<PlanePatch>& planes,
   hough.min_area_m2 = std::min(hough.min_area_m2, 0.08);
   hough.patch_cell_m = std::min(hough.patch_cell_m, 0.15);
   std::vector<PlanePatch> found = detect_planes(rest, hough);
-  std::erase_if(
-      found, [&](const PlanePatch& plane) { return std::abs(plane.normal.z()) > options.vertical_epsilon; });
+  // A face not much wider than its noise is thick has no direction of its own: those are looked for in the
+  // plan.
+  std::erase_if(found, [&](const PlanePatch& plane) {
+    return std::abs(plane.normal.z()) > options.vertical_epsilon ||
+           (plane.columns - 2) * plane.cell_m < kLeastWidthOverNoise * plane.rms_m;
+  });
   return found;
 }
 

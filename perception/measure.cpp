@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/polygon.h"
+#include "perception/range_noise.h"
 
 namespace gramap {
 namespace {
@@ -12,39 +13,6 @@ constexpr std::size_t kMeasuredPoints = 60000;  // enough: what is left of the e
 
 struct Stretch {
   double from, to;
-};
-
-/// The noise of points by their distance from the scanner, learned from how far they lie from the planes: a
-/// depth camera's grows with the square of the distance, a laser's hardly at all.
-class RangeNoise {
- public:
-  double at(double range_m) const { return sigma_m_[bin(range_m)]; }
-
-  void learn(const std::vector<PlanePoint>& points, const std::vector<AdjustedPlane>& planes,
-             const std::vector<Vec3>& scanners, const std::vector<Eigen::Isometry3d>& corrections) {
-    std::vector<std::vector<float>> residuals(kBins);
-    for (const PlanePoint& point : points)
-      residuals[bin((point.point_m - scanners[point.part]).norm())].push_back(
-          static_cast<float>(std::abs(residual_m(point, planes, corrections))));
-    double last = kLargest;
-    for (std::size_t b = 0; b < kBins; ++b) {
-      std::vector<float>& list = residuals[b];
-      if (list.size() >= 50) {
-        const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
-        std::nth_element(list.begin(), middle, list.end());
-        last = std::clamp(1.4826 * static_cast<double>(*middle), 0.001, kLargest);
-      }
-      sigma_m_[b] = last;
-    }
-  }
-
- private:
-  static constexpr std::size_t kBins = 40;
-  static constexpr double kLargest = 0.03;
-  static std::size_t bin(double range_m) {
-    return std::min(kBins - 1, static_cast<std::size_t>(range_m / 0.5));
-  }
-  std::vector<double> sigma_m_ = std::vector<double>(kBins, kLargest / 1.5);
 };
 
 /// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold
@@ -147,7 +115,9 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     for (std::size_t p = 0; p < before.size(); ++p)
       moved_m = std::max(moved_m, (room.planes[p].middle - before[p].middle).norm());
     corrections = room.adjustment.corrected_from_registered;
-    noise.learn(points, room.planes, scanners, corrections);
+    for (const PlanePoint& point : points)
+      noise.add((point.point_m - scanners[point.part]).norm(), residual_m(point, room.planes, corrections));
+    noise.learn();
     for (std::size_t l = 0; l < lines.size(); ++l) {
       if (plane_of_line[l] < 0) continue;
       const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(plane_of_line[l])];

@@ -14,6 +14,7 @@
 #include "perception/level.h"
 #include "perception/measure.h"
 #include "perception/models.h"
+#include "perception/narrow_faces.h"
 #include "perception/storey.h"
 
 namespace gramap {
@@ -48,6 +49,9 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
   found.storey = find_storey(found.planes, found.cloud, room, options.walls);
   for (PlanePatch& plane :
        find_hidden_walls(found.planes, found.cloud, found.storey, options.walls, options.hough))
+    found.planes.push_back(std::move(plane));
+  const RangeNoise noise = learned_noise(found.planes, found.cloud);
+  for (PlanePatch& plane : find_narrow_faces(found.planes, found.cloud, found.storey, options.walls, noise))
     found.planes.push_back(std::move(plane));
   found.walls = wall_lines(found.planes, found.cloud, found.storey, options.walls);
   stages.end("walls");
