@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   int code = kDone;
   const std::vector<Verb (*)(CLI::App&)> verbs = {
       declare_check,     //
+      declare_compress,  //
       declare_document,  //
       declare_explain,   //
       declare_fit,       //

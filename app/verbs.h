@@ -22,6 +22,7 @@ enum ExitCode {
 /// Adds a verb to the command; the returned function runs it once the options are parsed.
 using Verb = std::function<int()>;
 Verb declare_check(CLI::App& gramap);
+Verb declare_compress(CLI::App& gramap);
 Verb declare_document(CLI::App& gramap);
 Verb declare_explain(CLI::App& gramap);
 Verb declare_fit(CLI::App& gramap);

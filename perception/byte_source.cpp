@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "geometry/error.h"
+#include "perception/compressed_cloud.h"
 #include "perception/point_reader.h"
 
 namespace gramap {
@@ -111,6 +112,13 @@ std::vector<Point> read_points(const std::filesystem::path& path) {
   const std::string kind = name.extension().string();
   if (kind == ".ply") return read_ply(path);
   if (kind == ".pcd") return read_pcd(path);
+  if (kind == ".gpc") {
+    ByteSource source(path);
+    std::string bytes;
+    char buffer[1 << 16];
+    while (const std::size_t got = source.read(buffer, sizeof buffer)) bytes.append(buffer, got);
+    return decompress_points(bytes, path);
+  }
   std::vector<Point> points = read_xyz(path);
   // 3DTK's own: centimetres in its left-handed frame.
   if (kind == ".3d")

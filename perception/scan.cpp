@@ -25,7 +25,7 @@ std::string stem_of(const fs::path& file) {
   fs::path name = file.filename();
   if (name.extension() == ".gz") name = name.stem();
   const std::string kind = name.extension().string();
-  for (const char* known : {".xyz", ".asc", ".ply", ".pcd", ".3d"})
+  for (const char* known : {".xyz", ".asc", ".ply", ".pcd", ".3d", ".gpc"})
     if (kind == known) return name.stem().string();
   return "";
 }
@@ -127,9 +127,10 @@ RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
     if (error) throw InputError({folder.string()}, "cannot be read: " + error.message());
   }
   if (files.empty())
-    throw InputError({folder.string()}, "there are no scans here",
-                     "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, … (or .ply, .pcd, .3d, "
-                     "each also .gz)");
+    throw InputError(
+        {folder.string()}, "there are no scans here",
+        "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, … (or .ply, .pcd, .3d, .gpc, "
+        "each also .gz)");
   std::sort(files.begin(), files.end());
 
   RoomScans room;
