@@ -51,6 +51,16 @@ std::vector<FittedFloor> read_floors(const std::vector<std::string>& inputs, Run
   return floors;
 }
 
+/// The models; a fault that names no file is in the input, when there is only one.
+std::vector<FloorModel> built(std::vector<FittedFloor> floors, const Options& options) {
+  try {
+    return build_storeys(std::move(floors));
+  } catch (const InputError& error) {
+    if (!error.place.file.empty() || options.inputs.size() != 1) throw;
+    throw InputError({options.inputs.front()}, error.what(), error.advice);
+  }
+}
+
 std::string written(const std::string& output, const std::vector<FloorModel>& storeys, const RunInfo& run,
                     const Options& options) {
   const std::string type = extension(output);
@@ -73,7 +83,7 @@ int run(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   RunInfo info;
   info.version = GRAMAP_VERSION;
-  const std::vector<FloorModel> storeys = build_storeys(read_floors(options.inputs, info));
+  const std::vector<FloorModel> storeys = built(read_floors(options.inputs, info), options);
   bool set_aside = false;
   for (const FloorModel& storey : storeys) {
     const VerifyReport report = verify(storey);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/fit_inputs.h"
 #include "app/verbs.h"
@@ -39,14 +40,15 @@ int run(const Options& options) {
   FittedFloor fitted =
       fit_floor(inputs.floor, inputs.rules, inputs.problems, inputs.observations, options.inputs.fit);
   fitted.set_aside.insert(fitted.set_aside.begin(), inputs.set_aside.begin(), inputs.set_aside.end());
-  if (options.strict && !fitted.set_aside.empty())
-    throw InputError({options.inputs.floor},
-                     fitted.set_aside.front().what + ": " + fitted.set_aside.front().reason,
+  FloorModel model = build_model(fitted);
+  std::vector<SetAsideInput>& set_aside = model.fitted.set_aside;
+  set_aside.insert(set_aside.end(), model.set_aside.begin(), model.set_aside.end());
+  if (options.strict && !set_aside.empty())
+    throw InputError({options.inputs.floor}, set_aside.front().what + ": " + set_aside.front().reason,
                      "leave --strict away to go on without it");
-  const FloorModel model = build_model(fitted);
   const VerifyReport report = verify(model);
   FILE* const out = options.output == "-" ? stderr : stdout;
-  std::fputs(room_table(fitted).c_str(), out);
+  std::fputs(room_table(model.fitted).c_str(), out);
   std::fputs(to_text(report).c_str(), out);
   if (!report.ok()) {
     std::fprintf(stderr,
@@ -56,10 +58,10 @@ int run(const Options& options) {
     return kDefect;
   }
   write_file(options.output, to_glb(model, run_info(options, fitted)));
-  for (const SetAsideInput& aside : fitted.set_aside)
+  for (const SetAsideInput& aside : set_aside)
     std::fprintf(stderr, "gramap: warning: %s was set aside: %s\n", aside.what.c_str(), aside.reason.c_str());
   if (!options.inputs.quiet) std::fprintf(stderr, "gramap: wrote %s\n", options.output.c_str());
-  return fitted.set_aside.empty() ? kDone : kSetAside;
+  return set_aside.empty() ? kDone : kSetAside;
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ Verb declare_fit(CLI::App& gramap) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--strict", options->strict, "Refuse to write anything when some input has to be set aside");
-  return [options] { return run(*options); };
+  return [options] { return naming_floor(options->inputs, [&options] { return run(*options); }); };
 }
 
 }  // namespace gramap

@@ -115,6 +115,16 @@ FitInputs read_inputs(const FitInputOptions& options) {
   return inputs;
 }
 
+int naming_floor(const FitInputOptions& options, const std::function<int()>& verb) {
+  try {
+    return verb();
+  } catch (const InputError& error) {
+    if (!error.place.file.empty()) throw;
+    throw InputError({options.rls.empty() ? floor_file(options).string() : options.rls}, error.what(),
+                     error.advice);
+  }
+}
+
 std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions& options) {
   std::vector<std::pair<std::string, std::string>> items;
   std::string without;

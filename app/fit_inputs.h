@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,9 @@ struct FitInputs {
 
 /// Throws InputError for what is at fault; single rooms that cannot be used are set aside.
 FitInputs read_inputs(const FitInputOptions& options);
+
+/// Runs a verb; a fault of the input that names no file gets the floor's.
+int naming_floor(const FitInputOptions& options, const std::function<int()>& verb);
 
 /// The options as given and the hashes of the input files, so that a model says how it was made.
 std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions& options);

@@ -54,7 +54,7 @@ Verb declare_plan(CLI::App& gramap) {
   verb->add_option("-n,--rooms", options->rooms, "How many rooms to name")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  return [options] { return run(*options); };
+  return [options] { return naming_floor(options->inputs, [&options] { return run(*options); }); };
 }
 
 }  // namespace gramap

@@ -10,32 +10,15 @@
 #include "floor/wall_openings.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
 
 constexpr double kUsualHeight_m = 2.7;
 
-std::string at(const Vec2& place) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f)", place.x(), place.y());
-  return text;
-}
-
 std::string side_name(const FloorModel& model, int side) {
   return side == kOutside ? "outside" : model.rooms[side].fitted.id;
-}
-
-const char* kind_name(ModelRoom::Kind kind) {
-  switch (kind) {
-    case ModelRoom::Kind::hallway:
-      return "hallway";
-    case ModelRoom::Kind::fixed:
-      return "fixed";
-    case ModelRoom::Kind::room:
-      break;
-  }
-  return "room";
 }
 
 std::string described(const ModelRoom& room, const std::string& room_kind) {
@@ -97,6 +80,10 @@ PlanInput plan_input(const FloorModel& model) {
 /// A contradiction in what was given, as one sentence.
 [[noreturn]] void refuse(const FloorModel& model, const PlanFault& fault,
                          const std::string& room_kind = "room") {
+  if (fault.kind == PlanFault::Kind::crossing_outlines)
+    throw InputError({},
+                     "the floor's outline and its courtyards cross one another at " + said_point(fault.at),
+                     "draw courtyards inside of the outline, apart from each other");
   const std::string a = described(model.rooms[fault.a], room_kind);
   char area[32];
   std::snprintf(area, sizeof area, "%.3g m²", fault.area_m2);
@@ -104,17 +91,20 @@ PlanInput plan_input(const FloorModel& model) {
     case PlanFault::Kind::overlap:
       throw InputError({},
                        a + " and " + described(model.rooms[fault.b], room_kind) + " overlap by " + area +
-                           " at " + at(fault.at),
+                           " at " + said_point(fault.at),
                        "move their borders apart in the floor file; between them there is room for a wall");
     case PlanFault::Kind::outside_outline:
-      throw InputError({}, a + " reaches " + area + " out of the floor's outline at " + at(fault.at),
+      throw InputError({}, a + " reaches " + area + " out of the floor's outline at " + said_point(fault.at),
                        "the outline is the outer face of the outer walls: draw it around all rooms");
     case PlanFault::Kind::zero_wall:
       throw InputError(
-          {}, a + " touches the floor's outline at " + at(fault.at) + ", which leaves no outer wall there",
+          {},
+          a + " touches the floor's outline at " + said_point(fault.at) +
+              ", which leaves no outer wall there",
           "the outline is the outer face of the outer walls, a room's polygon its clear area: leave the "
           "wall's thickness between them");
     case PlanFault::Kind::lost_opening:
+    case PlanFault::Kind::crossing_outlines:
       break;
   }
   throw std::logic_error("not a fault of the plan");
@@ -206,9 +196,11 @@ void add_openings(FloorModel& model, PlanInput& input, NodeNames& names) {
     if (lost.empty()) break;
     std::sort(lost.rbegin(), lost.rend());
     for (const int o : lost) {
-      model.set_aside.push_back({"the " + placed.openings[o].fitted.kind + " of room '" +
-                                     placed.openings[o].room + "' at " + at(placed.openings[o].fitted.a),
-                                 "it cannot be cut straight through one wall"});
+      const ModelOpening& opening = placed.openings[o];
+      if (opening.fitted.origin != Origin::derived)
+        model.set_aside.push_back({"the " + opening.fitted.kind + " of room '" + opening.room + "' at " +
+                                       said_point(opening.fitted.a),
+                                   "it cannot be cut straight through one wall"});
       placed.openings.erase(placed.openings.begin() + o);
       placed.cuts.erase(placed.cuts.begin() + o);
     }
@@ -244,6 +236,18 @@ void add_slab(FloorModel& model) {
 }
 
 }  // namespace
+
+const char* kind_name(ModelRoom::Kind kind) {
+  switch (kind) {
+    case ModelRoom::Kind::hallway:
+      return "hallway";
+    case ModelRoom::Kind::fixed:
+      return "fixed";
+    case ModelRoom::Kind::room:
+      break;
+  }
+  return "room";
+}
 
 FloorModel build_model(const FittedFloor& fitted, const BuildOptions& options) {
   FloorModel model;

@@ -30,6 +30,9 @@ json parse(const std::string& text, const std::string& path) {
     throw InputError({path, static_cast<int>(line) + 1, static_cast<int>(column)},
                      byte >= text.size() ? "the JSON ends too early" : "this is not valid JSON here",
                      "a floor file is a GeoJSON FeatureCollection; check it with any JSON viewer");
+  } catch (const json::out_of_range&) {
+    throw InputError({path}, "a number in the file is too large for any computer",
+                     "write coordinates in plain metres, or in degrees");
   }
 }
 
@@ -54,7 +57,9 @@ Vec2 read_position(const json& value, const GeoFile& file, const GeoFeature& fea
 }
 
 Polygon read_positions(const json& value, const GeoFile& file, const GeoFeature& feature) {
-  if (!value.is_array()) fail(file, feature, "its coordinates are not a list of positions", "");
+  if (!value.is_array())
+    fail(file, feature, "its coordinates are not a list of positions",
+         "write a ring or a line as [[x, y], [x, y], …]");
   Polygon points;
   for (const json& position : value) points.push_back(read_position(position, file, feature));
   return points;
@@ -109,18 +114,25 @@ Extent extent_of(const GeoFile& file) {
   return extent;
 }
 
+constexpr double kFarthest_m = 1e8;  ///< from the origin: no map projection of the Earth goes farther
+constexpr double kWidest_m = 5000;   ///< a floor of a building
+
 void check_metres(const GeoFile& file, const Extent& extent) {
   if (extent.empty()) return;
-  const Vec2 size = extent.most - extent.least;
-  const bool in_range = extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs()).x() <= 180 &&
-                        extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs()).y() <= 90;
+  const Vec2 size = extent.most - extent.least,
+             far = extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs());
+  const bool in_range = far.x() <= 180 && far.y() <= 90;
   // A single pin has no size and may stand anywhere.
   if (in_range && size.maxCoeff() > 0 && size.maxCoeff() < 0.5)
     fail_file(file.path,
               "the file says metres, but all of it lies within half a metre: these look like degrees",
               "leave \"coordinate_units\" out when the coordinates are WGS84 longitude and latitude");
-  if (size.maxCoeff() > 20000)
-    fail_file(file.path, "the floor is more than 20 km wide: these do not look like metres",
+  if (far.maxCoeff() > kFarthest_m)
+    fail_file(file.path, "a coordinate is more than 100,000 km from the origin, farther than any map reaches",
+              "give coordinates in metres about an origin near the building, or WGS84 without "
+              "\"coordinate_units\"");
+  if (size.maxCoeff() > kWidest_m)
+    fail_file(file.path, "the floor is more than 5 km wide: these do not look like metres",
               "give coordinates in metres, or WGS84 without \"coordinate_units\"");
 }
 
@@ -173,6 +185,25 @@ std::optional<double> as_number(const std::variant<std::string, double, bool>& v
   if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(number))
     return std::nullopt;
   return number;
+}
+
+bool on_one_line(const Polygon& ring) {
+  Vec2 far = ring.front();
+  for (const Vec2& point : ring)
+    if ((point - ring.front()).norm() > (far - ring.front()).norm()) far = point;
+  return std::all_of(ring.begin(), ring.end(),
+                     [&](const Vec2& point) { return distance_to_segment(point, ring.front(), far) < 1e-6; });
+}
+
+/// A simple ring without repeated points, or InputError; `which` is "its polygon" or one of its holes.
+Polygon simple_ring(const GeoFile& file, const GeoFeature& feature, const Polygon& given,
+                    const std::string& which) {
+  Polygon ring = without_repeats(given);
+  if (ring.size() < 3 || on_one_line(ring))
+    fail(file, feature, which + " encloses no area", "give at least three corners that are not on one line");
+  if (const auto fault = ring_fault(ring))
+    fail(file, feature, which + " " + *fault, "draw it so that its edges meet only at their common corners");
+  return ring;
 }
 
 }  // namespace
@@ -258,14 +289,19 @@ Polygon ring_of(const GeoFile& file, const GeoFeature& feature, bool holes_allow
   if (feature.parts[0].size() != 1 && !holes_allowed)
     fail(file, feature, "its polygon has a hole",
          "cut it into pieces without holes, each a feature of its own");
-  Polygon ring = without_repeats(feature.parts[0][0]);
-  if (ring.size() < 3 || std::abs(signed_area(ring)) < 1e-6)
-    fail(file, feature, "its polygon encloses no area",
-         "give at least three corners that are not on one line");
-  if (const auto fault = ring_fault(ring))
-    fail(file, feature, *fault, "draw the outline so that its edges meet only at their common corners");
+  Polygon ring = simple_ring(file, feature, feature.parts[0][0], "its polygon");
   if (signed_area(ring) < 0) std::reverse(ring.begin(), ring.end());
   return ring;
+}
+
+std::vector<Polygon> holes_of(const GeoFile& file, const GeoFeature& feature) {
+  std::vector<Polygon> holes;
+  for (std::size_t i = 1; i < feature.parts[0].size(); ++i)
+    holes.push_back(simple_ring(file, feature, feature.parts[0][i], "its hole " + std::to_string(i)));
+  if (const auto fault = holes_fault(without_repeats(feature.parts[0][0]), holes))
+    fail(file, feature, *fault,
+         "a hole is a courtyard: draw it inside of the outline, apart from other holes");
+  return holes;
 }
 
 std::pair<Vec2, Vec2> segment_of(const GeoFile& file, const GeoFeature& feature) {

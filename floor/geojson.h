@@ -58,6 +58,10 @@ std::string describe(const GeoFeature& feature);
 /// area, or one that crosses or touches itself.
 Polygon ring_of(const GeoFile& file, const GeoFeature& feature, bool holes_allowed = false);
 
+/// The holes of a polygon that ring_of accepted: simple rings inside of it, apart from it and from each
+/// other. Throws InputError.
+std::vector<Polygon> holes_of(const GeoFile& file, const GeoFeature& feature);
+
 /// The two ends of the feature's LineString; points between them must lie on the straight line (5 cm).
 std::pair<Vec2, Vec2> segment_of(const GeoFile& file, const GeoFeature& feature);
 

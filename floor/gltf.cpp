@@ -26,18 +26,6 @@ json points(const Polygon& ring) {
   return array;
 }
 
-const char* kind_name(ModelRoom::Kind kind) {
-  switch (kind) {
-    case ModelRoom::Kind::hallway:
-      return "hallway";
-    case ModelRoom::Kind::fixed:
-      return "fixed";
-    case ModelRoom::Kind::room:
-      break;
-  }
-  return "room";
-}
-
 class Export {
  public:
   Export(const std::vector<FloorModel>& storeys, const RunInfo& run, const GltfOptions& options)

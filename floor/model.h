@@ -25,6 +25,9 @@ struct ModelRoom {
   Mesh volume;   ///< closed
 };
 
+/// "room", "hallway" or "fixed", as files say it.
+const char* kind_name(ModelRoom::Kind kind);
+
 /// A wall between two rooms or a room and the outside, a junction of walls, or solid mass.
 struct ModelWall {
   std::string node;
@@ -72,7 +75,7 @@ struct FloorModel {
   std::vector<ModelOpening> openings;
   std::vector<ModelFurniture> furniture;
   Mesh slab;
-  std::vector<SetAsideInput> set_aside;  ///< openings and furniture that had no place, and why
+  std::vector<SetAsideInput> set_aside;  ///< seen openings and furniture that had no place, and why
 };
 
 struct BuildOptions {

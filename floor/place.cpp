@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "geometry/polygon.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
-
-std::string metres(const Vec2& point) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f)", point.x(), point.y());
-  return text;
-}
 
 /// Points spread evenly over the polygon's inside.
 std::vector<Vec2> samples(const Polygon& polygon) {
@@ -168,8 +162,8 @@ Placement place_observations(const FloorGroundTruth& floor, const std::vector<Ro
         if (distance < nearest) nearest = distance, placed.index = static_cast<int>(i);
       }
       if (nearest > std::max(options.pin_reach_m, 3 * pin->sigma_m)) {
-        placement.set_aside.push_back(
-            {room.room, "its pin at " + metres(pin->at) + " lies in no space of the floor; move the pin"});
+        placement.set_aside.push_back({room.room, "its pin at " + said_point(pin->at) +
+                                                      " lies in no space of the floor; move the pin"});
         continue;
       }
       placed.evidence =
@@ -188,7 +182,8 @@ Placement place_observations(const FloorGroundTruth& floor, const std::vector<Ro
     if (static_cast<double>(most) <
         options.least_overlap * static_cast<double>(std::max<std::size_t>(1, inside.size()))) {
       placement.set_aside.push_back(
-          {room.room, "it lies in no space of the floor: its middle is at " + metres(centroid(room.outline)) +
+          {room.room, "it lies in no space of the floor: its middle is at " +
+                          said_point(centroid(room.outline)) +
                           "; check the poses, or say --frame room and give it a pin"});
       continue;
     }

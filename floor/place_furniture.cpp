@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/polygon.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
@@ -71,11 +71,9 @@ std::vector<ModelFurniture> place_furniture(const ModelRoom& room, std::vector<S
     added.room = room.fitted.id;
     added.fitted = piece;
     const auto refuse = [&](const char* reason) {
-      char text[200];
-      const Vec2 at = piece.outline.empty() ? Vec2(0, 0) : centroid(piece.outline);
-      std::snprintf(text, sizeof text, "the %s of %s at (%.2f, %.2f)", piece.type.c_str(), room.node.c_str(),
-                    at.x(), at.y());
-      set_aside.push_back({text, reason});
+      if (piece.origin == Origin::derived) return;  // nobody has seen it
+      const Vec2 middle = piece.outline.empty() ? Vec2(0, 0) : centroid(piece.outline);
+      set_aside.push_back({"the " + piece.type + " of " + room.node + " at " + said_point(middle), reason});
     };
     if (piece.outline.size() < 3) {
       refuse("it has no outline");

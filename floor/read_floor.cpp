@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -52,17 +53,27 @@ void place_line(const GeoFile& file, const GeoFeature& feature, const ReferenceL
   space.end = line.end;
   switch (side_of(space.outline, space.start, space.end)) {
     case LineSide::left:
-      return;
+      break;
     case LineSide::right:
       std::swap(space.start, space.end);
       remarks.push_back("the reference line of space '" + space.id +
                         "' had the space on its right and was turned round");
-      return;
+      break;
     case LineSide::off_border:
       fail(file, feature, "the line does not run along the border of space '" + space.id + "' (to 5 cm)",
            "draw it along the space's hallway edge, with the space on its left; or leave the line out, and "
            "the "
            "edge beside the hallway is taken");
+  }
+  const double length = (space.end - space.start).norm(),
+               whole = side_length(space.outline, space.start, space.end);
+  if (whole > length + 0.3) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "' covers %.2f m of the space's side of %.2f m; beyond its ends the space stays without rooms",
+        length, whole);
+    remarks.push_back("the reference line of space '" + space.id + text);
   }
 }
 
@@ -111,18 +122,19 @@ FloorGroundTruth read_floor(const std::filesystem::path& path) {
   floor.outer_wall_m = positive_member(file, "walls.outer", 5);
 
   std::set<std::string> rooms, spaces;
+  int clockwise = 0;
   std::map<std::string, ReferenceLine> lines;  // by space
   std::vector<const GeoFeature*> space_features;
   for (const GeoFeature& feature : file.features) {
     const std::string kind = required(file, feature, "kind");
     if (kTruthKinds.contains(kind)) continue;
+    if (feature.geometry == "Polygon" && signed_area(feature.parts[0][0]) < 0) ++clockwise;
     if (kind == "outline") {
       if (!floor.outline.empty())
         fail(file, feature, "the floor has a second outline",
              "keep one outline: the outer face of the outer walls");
       floor.outline = ring_of(file, feature, true);
-      const std::vector<Polygon>& rings = feature.parts.front();
-      for (std::size_t i = 1; i < rings.size(); ++i) floor.courtyards.push_back(simplified(rings[i]));
+      for (const Polygon& hole : holes_of(file, feature)) floor.courtyards.push_back(simplified(hole));
     } else if (kind == "hallway") {
       const std::string id = required(file, feature, "id");
       claim(rooms, id, file, feature);
@@ -177,6 +189,8 @@ FloorGroundTruth read_floor(const std::filesystem::path& path) {
       place_line(file, *line->second.feature, line->second, space, floor.remarks);
     lines.erase(space.id);
   }
+  if (clockwise > 0)
+    floor.remarks.push_back("areas drawn clockwise, which were turned round: " + std::to_string(clockwise));
   if (!lines.empty())
     fail(file, *lines.begin()->second.feature,
          "it names the space '" + lines.begin()->first + "', which the file does not have",

@@ -29,6 +29,20 @@ LineSide side_of(const Polygon& outline, const Vec2& start, const Vec2& end) {
   return left >= right ? LineSide::left : LineSide::right;
 }
 
+double side_length(const Polygon& outline, const Vec2& start, const Vec2& end) {
+  constexpr double tolerance_m = 0.05;
+  const Vec2 along = (end - start).normalized(), normal = left_of(along);
+  double first = 0, last = (end - start).norm();
+  const auto on_line = [&](const Vec2& p) { return std::abs(normal.dot(p - start)) < tolerance_m; };
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    if (!on_line(a) || !on_line(b)) continue;
+    first = std::min({first, along.dot(a - start), along.dot(b - start)});
+    last = std::max({last, along.dot(a - start), along.dot(b - start)});
+  }
+  return last - first;
+}
+
 std::optional<std::pair<Vec2, Vec2>> edge_beside(const Polygon& outline, const Polygon& hallway,
                                                  double reach_m) {
   const double most_turn = std::sin(5 * 3.14159265358979 / 180);

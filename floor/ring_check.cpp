@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "geometry/polygon.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
@@ -22,10 +22,12 @@ bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          distance_to_segment(c, a, b) < kSame || distance_to_segment(d, a, b) < kSame;
 }
 
-std::string place(const Vec2& point) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.3f, %.3f)", point.x(), point.y());
-  return text;
+/// A place where two rings meet.
+std::optional<Vec2> meeting(const Polygon& a, const Polygon& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (meet(a[i], a[(i + 1) % a.size()], b[j], b[(j + 1) % b.size()])) return b[j];
+  return std::nullopt;
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ std::optional<std::string> ring_fault(const Polygon& ring) {
     const Vec2 &a = ring[i], &b = ring[next(i)], &c = ring[next(next(i))];
     if ((b - a).dot(c - b) < 0 &&
         (distance_to_segment(c, a, b) < kSame || distance_to_segment(a, b, c) < kSame))
-      return "its outline runs back on itself at " + place(b);
+      return "runs back on itself at " + said_point(b, 3);
   }
   std::vector<std::size_t> order(n), open;
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -58,11 +60,29 @@ std::optional<std::string> ring_fault(const Polygon& ring) {
     for (const std::size_t j : open) {
       if (next(i) == j || next(j) == i) continue;
       if (meet(ring[i], ring[next(i)], ring[j], ring[next(j)]))
-        return "its outline crosses or touches itself: the edge from " + place(ring[j]) + " to " +
-               place(ring[next(j)]) + " meets the edge from " + place(ring[i]) + " to " +
-               place(ring[next(i)]);
+        return "crosses or touches itself: the edge from " + said_point(ring[j], 3) + " to " +
+               said_point(ring[next(j)], 3) + " meets the edge from " + said_point(ring[i], 3) + " to " +
+               said_point(ring[next(i)], 3);
     }
     open.push_back(i);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> holes_fault(const Polygon& outer, const std::vector<Polygon>& holes) {
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    const std::string hole = "its hole " + std::to_string(i + 1);
+    if (const auto at = meeting(outer, holes[i]))
+      return hole + " crosses or touches its outer ring near " + said_point(*at, 3);
+    if (!contains(outer, holes[i].front()))
+      return hole + " lies outside of it, at " + said_point(holes[i].front(), 3);
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::string both = "its holes " + std::to_string(j + 1) + " and " + std::to_string(i + 1);
+      if (const auto at = meeting(holes[j], holes[i]))
+        return both + " cross or touch near " + said_point(*at, 3);
+      if (contains(holes[j], holes[i].front()) || contains(holes[i], holes[j].front()))
+        return both + " lie in one another";
+    }
   }
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/types.h"
 
@@ -14,5 +15,9 @@ Polygon without_repeats(const Polygon& ring);
 /// Where the ring crosses or touches itself, as a sentence for people; nothing when it is simple. `ring` has
 /// no repeated neighbours. Edges are swept along x, so rings of thousands of points are quick.
 std::optional<std::string> ring_fault(const Polygon& ring);
+
+/// What is wrong with the holes of a polygon, as a sentence for people; nothing when each lies inside of
+/// `outer` and they touch neither it nor each other. All rings are simple.
+std::optional<std::string> holes_fault(const Polygon& outer, const std::vector<Polygon>& holes);
 
 }  // namespace gramap

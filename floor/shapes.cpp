@@ -59,14 +59,11 @@ bool any_of(const std::string& type, std::initializer_list<const char*> words) {
                      [&lower](const char* word) { return lower.find(word) != std::string::npos; });
 }
 
-/// A top on four legs.
-Mesh table(double length, double breadth, double height, double board, double leg, double inset) {
-  return grid_solid({0, inset, inset + leg, length - inset - leg, length - inset, length},
-                    {0, inset, inset + leg, breadth - inset - leg, breadth - inset, breadth},
-                    [&](int i, int j) {
-                      const bool under = (i == 1 || i == 3) && (j == 1 || j == 3);
-                      return Heights{{under ? 0 : height - board, height}};
-                    });
+/// A top on four legs at its corners.
+Mesh table(double length, double breadth, double height, double board, double leg) {
+  return grid_solid({0, leg, length - leg, length}, {0, leg, breadth - leg, breadth}, [&](int i, int j) {
+    return Heights{{i != 1 && j != 1 ? 0 : height - board, height}};
+  });
 }
 
 Mesh chair(double length, double breadth, double height) {
@@ -152,14 +149,14 @@ std::vector<Part> furniture_parts(const std::string& type, double length_m, doub
   const Material wood = derived ? Material::furniture_derived : Material::furniture;
   const Material cloth = derived ? Material::furniture_derived : Material::seat;
   if (any_of(type, {"table", "desk", "tisch"}) && std::min(l, b) > 0.35 && h > 0.3)
-    return {{"table", wood, table(l, b, h, 0.03, 0.05, 0.02)}};
+    return {{"table", wood, table(l, b, h, 0.03, 0.05)}};
   if (any_of(type, {"chair", "stool", "stuhl"}) && std::min(l, b) > 0.25 && h > 0.3)
     return {{"chair", cloth, chair(l, b, h)}};
   if (any_of(type, {"cupboard", "cabinet", "wardrobe", "shelf", "schrank", "locker"}) &&
       std::min(l, b) > 0.15 && h > 0.3)
     return {{"cupboard", wood, cupboard(l, b, h)}};
   if (any_of(type, {"bed", "bett"}) && std::min(l, b) > 0.5 && h > 0.25)
-    return {{"bed", wood, table(l, b, h * 0.55, h * 0.3, 0.08, 0.01)},
+    return {{"bed", wood, table(l, b, h * 0.55, h * 0.3, 0.08)},
             {"mattress", cloth, block(0.03, l - 0.03, 0.03, b - 0.03, h * 0.55, h)}};
   return {{"block", wood, block(0, l, 0, b, 0, h)}};
 }

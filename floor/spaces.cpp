@@ -7,15 +7,18 @@
 #include <tuple>
 
 #include "floor/model.h"
+#include "floor/reference_line.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
 
 namespace gramap {
 namespace {
 
-constexpr double kLeastDepth_m = 1.5;   ///< what is shallower holds no room
-constexpr double kLeastLength_m = 1.5;  ///< nor does what is shorter
-constexpr double kInside_m = 1e-3;      ///< rays start so far off the lines that they run along
+constexpr double kLeastDepth_m = 1.5;       ///< what is shallower holds no room
+constexpr double kLeastLength_m = 1.5;      ///< nor does what is shorter
+constexpr double kInside_m = 1e-3;          ///< rays start so far off the lines that they run along
+constexpr double kLeastSpaceDepth_m = 0.5;  ///< of a space that the floor file gives
+constexpr double kWidestHallway_m = 100;    ///< as wide as a concourse; beyond that the unit is wrong
 constexpr double kSaid_m = 0.5;  ///< shorter extensions around a hallway's end are not worth a sentence
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -222,10 +225,28 @@ std::vector<std::string> derive_spaces(FloorGroundTruth& floor, double inner_wal
 }
 
 void check_floor(const FloorGroundTruth& floor, const std::string& file) {
-  for (const Space& space : floor.spaces)
-    if ((space.end - space.start).norm() < 0.05)
+  char text[64];
+  for (const Space& space : floor.spaces) {
+    const double length = (space.end - space.start).norm();
+    if (length < 0.05)
       throw InputError({file}, "the reference line of space '" + space.id + "' has no length",
                        "draw it along the whole of the space's hallway edge");
+    const double depth = signed_area(space.outline) / side_length(space.outline, space.start, space.end);
+    std::snprintf(text, sizeof text, "' is only %.2f m deep", depth);
+    if (depth < kLeastSpaceDepth_m)
+      throw InputError({file}, "space '" + space.id + text + ": no room fits into it",
+                       "draw the whole area beside the hallway that rooms share, or leave the space out");
+  }
+  for (const Hallway& hallway : floor.hallways) {
+    double border = 0;
+    for (std::size_t i = 0; i < hallway.outline.size(); ++i)
+      border += (hallway.outline[(i + 1) % hallway.outline.size()] - hallway.outline[i]).norm();
+    const double width = 2 * signed_area(hallway.outline) / border;
+    std::snprintf(text, sizeof text, "' is about %.0f m wide", width);
+    if (width > kWidestHallway_m)
+      throw InputError({file}, "hallway '" + hallway.id + text + ": these do not look like metres",
+                       "give coordinates in metres, not in centimetres or feet");
+  }
   FittedFloor given;
   given.floor = floor;
   for (const Hallway& hallway : floor.hallways) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
+
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
@@ -26,11 +27,7 @@ struct Candidate {
 };
 
 std::string described(const ModelRoom& room, const FittedOpening& opening) {
-  char text[200];
-  const Vec2 middle = (opening.a + opening.b) / 2;
-  std::snprintf(text, sizeof text, "the %s of %s at (%.2f, %.2f)", opening.kind.c_str(), room.node.c_str(),
-                middle.x(), middle.y());
-  return text;
+  return "the " + opening.kind + " of " + room.node + " at " + said_point((opening.a + opening.b) / 2);
 }
 
 /// A direction along the wall that does not depend on the side one looks from.
@@ -111,6 +108,7 @@ PlacedOpenings place_openings(const std::vector<ModelRoom>& rooms, const Partiti
   for (int w = 0; w < static_cast<int>(plan.walls.size()); ++w) {
     const Partition::Wall& wall = plan.walls[w];
     if (wall.kind != PlanCell::Kind::wall) continue;
+    if (wall.side_a == kOutside) continue;  // between two courtyards
     walls_of_room[wall.side_a].push_back(w);
     if (wall.side_b != kOutside && wall.side_b != wall.side_a) walls_of_room[wall.side_b].push_back(w);
   }

@@ -77,11 +77,14 @@ class Extrusion {
   }
 
   /// The side face over a -> b from bottom to top, with every level that either end has: a zip of two chains.
+  /// Where both could climb, the point of the larger index does, so that solids that abut have the same
+  /// triangles there.
   void strip(int a, int b, double bottom, double top) {
     const std::vector<double> left = chain(a, bottom, top), right = chain(b, bottom, top);
     std::size_t i = 0, j = 0;
     while (i + 1 < left.size() || j + 1 < right.size()) {
-      const bool climb_right = j + 1 < right.size() && (i + 1 == left.size() || right[j + 1] <= left[i + 1]);
+      const bool climb_right = j + 1 < right.size() && (i + 1 == left.size() || right[j + 1] < left[i + 1] ||
+                                                        (right[j + 1] == left[i + 1] && b > a));
       if (climb_right) {
         mesh_.triangles.push_back({at(a, left[i]), at(b, right[j]), at(b, right[j + 1])});
         ++j;

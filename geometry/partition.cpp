@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include "geometry/overlay.h"
 #include "geometry/polygon.h"
 #include "geometry/segment_grid.h"
+#include "geometry/sets.h"
 #include "geometry/wall_cuts.h"
 
 namespace gramap {
@@ -68,19 +68,6 @@ std::vector<Polygon> welded(std::vector<Polygon> rooms, double weld_m) {
   }
   return rooms;
 }
-
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) { parent_[std::max(find(a), find(b))] = std::min(find(a), find(b)); }
-
- private:
-  std::vector<int> parent_;
-};
 
 class Builder {
  public:
@@ -142,6 +129,8 @@ class Builder {
           within += signed_area(rings_[ring]) > 0 ? 1 : -1;
       }
       if (rooms.size() > 1) fault(PlanFault::Kind::overlap, rooms[0], rooms[1], piece.inside, piece.area_m2);
+      if (within < 0 || within > 1)
+        fault(PlanFault::Kind::crossing_outlines, -1, -1, piece.inside, piece.area_m2);
       if (within <= 0) {
         if (!rooms.empty())
           fault(PlanFault::Kind::outside_outline, rooms[0], -1, piece.inside, piece.area_m2);
@@ -331,7 +320,8 @@ class Builder {
     result_.exact =
         std::all_of(overlay_.tiled.begin(), overlay_.tiled.end(), [](bool tiled) { return tiled; });
     for (const PlanFault& f : result_.faults)
-      if (f.kind == PlanFault::Kind::overlap || f.kind == PlanFault::Kind::outside_outline)
+      if (f.kind == PlanFault::Kind::overlap || f.kind == PlanFault::Kind::outside_outline ||
+          f.kind == PlanFault::Kind::crossing_outlines)
         result_.exact = false;
   }
 

@@ -51,9 +51,9 @@ struct PlanCell {
 
 /// A place where the input contradicts itself.
 struct PlanFault {
-  enum class Kind { overlap, outside_outline, zero_wall, lost_opening };
+  enum class Kind { overlap, outside_outline, zero_wall, lost_opening, crossing_outlines };
   Kind kind = Kind::overlap;
-  int a = -1;  ///< the room, or the opening
+  int a = -1;  ///< the room, or the opening; none for crossing outlines
   int b = -1;  ///< the other room
   Vec2 at = Vec2::Zero();
   double area_m2 = 0;

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
+
+#include "geometry/sets.h"
 
 namespace gramap {
 namespace {
@@ -32,19 +33,6 @@ Mesh welded(const Mesh& mesh) {
   for (const Triangle& t : mesh.triangles) result.triangles.push_back({to[t[0]], to[t[1]], to[t[2]]});
   return result;
 }
-
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<int> parent_;
-};
 
 class Check {
  public:

@@ -1,10 +1,10 @@
 #include "grammar/fillable.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "geometry/error.h"
+#include "geometry/say.h"
 #include "grammar/evidence.h"
 #include "grammar/inference.h"
 #include "grammar/lattice.h"
@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kSearchStep_m = 0.05;
 constexpr double kFarthest_m = 10;
-
-std::string metres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f m", value_m);
-  return text;
-}
 
 }  // namespace
 
@@ -56,8 +50,8 @@ void refuse_unfillable(const RuleSet& rules, const SpaceProblem& problem, const 
   const std::optional<double> nearest = nearest_fillable_m(rules, problem, options);
   throw InputError({},
                    "space " + problem.id + ": no layout of the rules of " + rules.symbols.front() + " (" +
-                       names + ") fills its " + metres(problem.length_m),
-                   nearest ? "the nearest length that they can fill is " + metres(*nearest)
+                       names + ") fills its " + said_metres(problem.length_m),
+                   nearest ? "the nearest length that they can fill is " + said_metres(*nearest)
                            : "they fill no length near it; see `gramap check --lengths`");
 }
 

@@ -1,9 +1,9 @@
 // The fit of one space: row automaton, lattice, sums and optimum, then widths off the grid.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/error.h"
+#include "geometry/say.h"
 #include "grammar/coarse.h"
 #include "grammar/coverage.h"
 #include "grammar/explanation.h"
@@ -16,12 +16,6 @@
 
 namespace gramap {
 namespace {
-
-std::string metres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f m", value_m);
-  return text;
-}
 
 void check(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
   const auto fail = [&](const std::string& message) {
@@ -83,7 +77,7 @@ void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
     for (const Explained& e : of_element) {
       const int original = lattice.evidence().rooms()[static_cast<std::size_t>(e.evidence)].original;
       used[static_cast<std::size_t>(original)] = true;
-      const std::string width = metres(problem.rooms[static_cast<std::size_t>(original)].width_m);
+      const std::string width = said_metres(problem.rooms[static_cast<std::size_t>(original)].width_m);
       if (e.how == Reading::opens)
         fit.reinterpreted.push_back(
             {original, "read as one room of " + width + ", but it is two: a wall was missed"});
@@ -98,7 +92,7 @@ void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
     if (!used[i])
       fit.set_aside.push_back(
           {static_cast<int>(i), "no room of the most probable layout explains its width of " +
-                                    metres(problem.rooms[i].width_m) +
+                                    said_metres(problem.rooms[i].width_m) +
                                     (problem.rooms[i].centre_m ? " at its place" : " in its order")});
 }
 

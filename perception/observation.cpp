@@ -147,6 +147,8 @@ RoomObservation observation_from_json(const std::string& text, const std::filesy
     int line = 1;
     for (std::size_t i = 0; i + 1 < error.byte && i < text.size(); ++i) line += text[i] == '\n';
     throw InputError({file, line}, "this is no JSON", "write the file with gramap perceive");
+  } catch (const Json::out_of_range&) {
+    throw InputError({file}, "a number in the file is too large", "write the file with gramap perceive");
   }
   const Reader all(json, "", file);
   if (all.member("gramap").text() != "room observation 1")

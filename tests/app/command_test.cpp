@@ -64,6 +64,19 @@ TEST_CASE("one bad room is said and derived instead: exit 4") {
   CHECK(read_file(project.model()).substr(0, 4) == "glTF");
 }
 
+TEST_CASE("what was seen and has no place in the model is said, and kept in it: exit 4") {
+  const Project project;
+  // Nothing of a window stands below a ceiling this low.
+  project.replace(project.office() / "floor.geojson", "\"ceiling_height\":2.8", "\"ceiling_height\":0.8");
+  const auto result = project.fit();
+  CHECK_MESSAGE(result.code == 4, result.error);
+  CHECK_MESSAGE(has(result.error, "warning: the window of room_N1 at ("), result.error);
+  CHECK(has(result.error, ") was set aside: it has no height"));
+  CHECK(has(result.out, "set aside: the window of room_N1"));
+  CHECK(has(read_file(project.model()), "it has no height"));
+  CHECK(project.fit("--strict").code == 1);
+}
+
 TEST_CASE("an input that cannot be used leaves the old model untouched: exit 1, one message") {
   const Project project;
   project.write(project.model(), "the old model");

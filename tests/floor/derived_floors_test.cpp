@@ -18,14 +18,12 @@
 #include "geometry/polygon.h"
 #include "grammar/derive.h"
 #include "grammar/language.h"
+#include "tests/support/rectangle.h"
 
 using namespace gramap;
+using test::rectangle;
 
 namespace {
-
-Polygon rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
 
 /// A hallway (0: straight, 1: L, 2: T, 3: a ring around a courtyard) of about the given length, turned by an
 /// angle.

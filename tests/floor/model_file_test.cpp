@@ -13,14 +13,14 @@
 #include "floor/verify_file.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
+#include "tests/floor/saved_model.h"
+#include "tests/support/rectangle.h"
 
 using namespace gramap;
+using test::rectangle;
+using test::saved;
 
 namespace {
-
-Polygon rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
 
 FittedFloor furnished_floor() {
   FloorGroundTruth floor;
@@ -49,12 +49,6 @@ FittedFloor furnished_floor() {
                      {"101", "other", rectangle(0.4, 9, 1, 9.5), 0.8, 1.3},
                      {"102", "bed", {{5, 7}, {6.9, 7.5}, {6.7, 8.4}, {4.8, 7.9}}, 0, 0.5}};
   return floor_of_truth(floor, truth);
-}
-
-std::filesystem::path saved(const std::string& name, const std::string& bytes) {
-  const std::filesystem::path path = std::filesystem::path(GRAMAP_MODELS_DIR) / name;
-  write_file(path, bytes);
-  return path;
 }
 
 bool has(const VerifyReport& report, const std::string& code) {

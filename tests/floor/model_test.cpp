@@ -12,14 +12,14 @@
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "geometry/polygon.h"
+#include "tests/floor/saved_model.h"
+#include "tests/support/rectangle.h"
 
 using namespace gramap;
+using test::rectangle;
+using test::saved;
 
 namespace {
-
-Polygon rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
 
 /// A hallway, stairs at its end, three rooms.
 FittedFloor small_floor() {
@@ -37,10 +37,6 @@ FittedFloor small_floor() {
                  {"102", "Office", "", rectangle(4.4, 6.5, 8.3, 10.3), 3, 5.5},
                  {"103", "Lab", "", rectangle(0.3, 0.3, 8.3, 4.1), 3, 5.6}};
   return floor_of_truth(floor, truth);
-}
-
-void save(const std::string& name, const std::string& glb) {
-  write_file(std::filesystem::path(GRAMAP_MODELS_DIR) / name, glb);
 }
 
 }  // namespace
@@ -67,8 +63,8 @@ TEST_CASE("a small floor builds, is proved gap-free and exports") {
   run.input_hashes = {{"floor.geojson", "0123456789abcdef"}};
   const std::string glb = to_glb(model, run);
   CHECK(glb == to_glb(build_model(small_floor()), run));  // the same bytes
-  save("small_floor.glb", glb);
-  save("small_floor.gltf", to_gltf({model}, run));
+  saved("small_floor.glb", glb);
+  saved("small_floor.gltf", to_gltf({model}, run));
 }
 
 TEST_CASE("node names are plain, unique and speaking") {
@@ -105,7 +101,7 @@ TEST_CASE("a floor far from its origin keeps its precision") {
     for (FittedRoom& room : *rooms) move(room.outline);
   const FloorModel model = build_model(fitted);
   CHECK(verify(model).ok());
-  save("far_away.glb", to_glb(model, {}));
+  saved("far_away.glb", to_glb(model, {}));
 }
 
 TEST_CASE("what cannot be built is refused with names and a place") {
@@ -129,6 +125,10 @@ TEST_CASE("what cannot be built is refused with names and a place") {
   SUBCASE("touching the outline") {
     fitted.hallways[0].outline = rectangle(0, 4.3, 8.3, 6.3);
     CHECK(message().find("hallway 'F1' touches the floor's outline at (0.00, ") == 0);
+  }
+  SUBCASE("a courtyard elsewhere") {
+    fitted.floor.courtyards = {rectangle(20, 20, 22, 22)};
+    CHECK(message().find("the floor's outline and its courtyards cross one another at (2") == 0);
   }
   SUBCASE("one id twice") {
     fitted.rooms[1].id = "101";

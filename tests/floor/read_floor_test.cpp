@@ -26,7 +26,7 @@ std::string collection(const std::string& features,
 const std::string kHallway =
     feature(R"("kind":"hallway","id":"H")", "Polygon", "[[[0,0],[20,0],[20,2],[0,2],[0,0]]]");
 const std::string kSpace = feature(R"("kind":"space","id":"S","hallway":"H")", "Polygon",
-                                   "[[[0,2.2],[0,6],[20,6],[20,2.2],[0,2.2]]]");
+                                   "[[[0,2.2],[20,2.2],[20,6],[0,6],[0,2.2]]]");
 const std::string kLine =
     feature(R"("kind":"reference_line","space":"S")", "LineString", "[[0,2.2],[20,2.2]]");
 
@@ -39,7 +39,8 @@ FloorGroundTruth read_text(const std::string& text) {
 
 TEST_CASE("a floor file is read: rings turned, closing points dropped, numbers as ids") {
   const FloorGroundTruth floor = read_text(
-      collection(kHallway + "," + kSpace + "," + kLine + "," +
+      collection(feature(R"("kind":"hallway","id":"H")", "Polygon", "[[[0,0],[0,2],[20,2],[20,0],[0,0]]]") +
+                     "," + kSpace + "," + kLine + "," +
                      feature(R"("kind":"fixed","id":12,"type":"Stairs")", "MultiPolygon",
                              "[[[[30,0],[32,0],[32,2],[30,2],[30,0]]]]") +
                      "," + feature(R"("kind":"scan","room":"7","sigma":"0.6")", "Point", "[3,4,0]") + "," +
@@ -51,6 +52,7 @@ TEST_CASE("a floor file is read: rings turned, closing points dropped, numbers a
   CHECK(floor.outer_wall_m == 0.3);
   CHECK_FALSE(floor.ceiling_height_m.has_value());
   REQUIRE(floor.spaces.size() == 1);
+  CHECK(signed_area(floor.hallways[0].outline) == doctest::Approx(40));
   CHECK(floor.spaces[0].outline.size() == 4);
   CHECK(signed_area(floor.spaces[0].outline) == doctest::Approx(76));
   CHECK(floor.spaces[0].start == Vec2(0, 2.2));
@@ -58,7 +60,7 @@ TEST_CASE("a floor file is read: rings turned, closing points dropped, numbers a
   CHECK(floor.fixed[0].id == "12");
   REQUIRE(floor.pins.size() == 1);
   CHECK(floor.pins[0].sigma_m == 0.6);
-  CHECK(floor.remarks.empty());
+  CHECK(floor.remarks == std::vector<std::string>{"areas drawn clockwise, which were turned round: 1"});
 }
 
 TEST_CASE("a reference line with the space on its right is turned round, and that is said") {

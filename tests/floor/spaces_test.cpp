@@ -7,14 +7,12 @@
 
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "tests/support/rectangle.h"
 
 using namespace gramap;
+using test::rectangle;
 
 namespace {
-
-Polygon rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
 
 FloorGroundTruth floor_with(Polygon outline, std::vector<Polygon> hallways, std::vector<Polygon> fixed = {}) {
   FloorGroundTruth floor;

@@ -6,14 +6,12 @@
 #include <cmath>
 
 #include "geometry/polygon.h"
+#include "tests/support/rectangle.h"
 
 using namespace gramap;
+using test::rectangle;
 
 namespace {
-
-Polygon rectangle(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
 
 /// The plan turned by an angle that no double can represent and shifted.
 PlanInput turned(PlanInput input, double angle_rad, const Vec2& shift) {

@@ -1,0 +1,19 @@
+#include "geometry/say.h"
+
+#include <cstdio>
+
+namespace gramap {
+
+std::string said_metres(double length_m) {
+  char text[340];  // the largest double has 309 digits
+  std::snprintf(text, sizeof text, "%.2f m", length_m);
+  return text;
+}
+
+std::string said_point(const Vec2& point, int decimals) {
+  char text[680];
+  std::snprintf(text, sizeof text, "(%.*f, %.*f)", decimals, point.x(), decimals, point.y());
+  return text;
+}
+
+}  // namespace gramap
