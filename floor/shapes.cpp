@@ -71,9 +71,7 @@ Mesh chair(double length, double breadth, double height) {
   return grid_solid({0, leg, length - leg, length}, {0, leg, breadth - back, breadth}, [&](int i, int j) {
     const double bottom = i != 1 && j != 1 ? 0 : seat - board;
     if (j != 2) return Heights{{bottom, seat}};
-    // The back: a slat above the seat, open below it between the posts.
-    if (i != 1 || height - seat < 0.25) return Heights{{bottom, height}};
-    return Heights{{bottom, seat}, {seat + 0.12, height}};
+    return Heights{{bottom, height}};  // the back
   });
 }
 

@@ -1,5 +1,6 @@
-// The viewer of `gramap view`: reads the glTF that stands in the page, merges its meshes by material (a floor of a
-// thousand rooms is then a few dozen draw calls), and shows it to orbit, to walk and as a plan.
+// The viewer of `gramap view`: reads the glTF that stands in the page, leaves out the faces in which solids abut,
+// merges meshes by material and place (a floor of a thousand rooms is then some dozen draw calls, of which a walker
+// needs few), and shows it to orbit, to walk and as a plan.
 (function () {
   'use strict';
   const THREE = window.THREE;
@@ -19,6 +20,8 @@
     return new Type(bytes.buffer, data + (view.byteOffset || 0) + (a.byteOffset || 0), a.count * width);
   }
 
+  const kTile_m = 60;   // what lies in one tile is drawn at once
+  const kTiny_m = 30;   // door handles farther away than this are not drawn
   const things = [];
   const buckets = new Map();
   const origin = { x: 0, y: 0 };
@@ -43,43 +46,82 @@
       const kind = thing ? thing.about.kind : '';
       const layer = /_ceiling$/.test(node.name) ? 'ceilings' : kind === 'furniture' ? 'furniture'
         : kind === 'door' || kind === 'window' ? 'openings' : 'building';
-      for (const primitive of gltf.meshes[node.mesh].primitives) add(layer, primitive, world, thing);
+      const masonry = kind === 'wall' || /slab$/.test(node.name), tiny = kind === 'door' && /_handle(_2)?(_far)?$/.test(node.name);
+      for (const primitive of gltf.meshes[node.mesh].primitives) add(layer, primitive, world, thing, masonry, tiny);
     }
     for (const child of node.children || []) visit(child, world, thing, floor);
   }
 
-  function add(layer, primitive, world, thing) {
-    const key = layer + '|' + primitive.material;
-    if (!buckets.has(key)) buckets.set(key, { layer: layer, material: primitive.material, parts: [], points: 0, corners: 0 });
-    const bucket = buckets.get(key);
+  function add(layer, primitive, world, thing, masonry, tiny) {
+    const given = accessor(primitive.attributes.POSITION), turned = accessor(primitive.attributes.NORMAL);
     const part = {
-      position: accessor(primitive.attributes.POSITION), normal: accessor(primitive.attributes.NORMAL),
-      index: accessor(primitive.indices), world: world, thing: thing, first: bucket.corners / 3,
+      layer: layer, material: primitive.material, thing: thing, masonry: masonry, tiny: tiny,
+      position: new Float32Array(given.length), normal: new Float32Array(given.length), index: accessor(primitive.indices),
     };
+    const p = new THREE.Vector3(), turn = new THREE.Matrix3().getNormalMatrix(world);
+    for (let i = 0; i < given.length; i += 3) {
+      p.fromArray(given, i).applyMatrix4(world).toArray(part.position, i);
+      p.fromArray(turned, i).applyMatrix3(turn).toArray(part.normal, i);
+    }
+    parts.push(part);
+  }
+
+  // Where two solids of masonry abut, both have the same triangles, facing each other. Nobody can see them, but
+  // their upper edges lie in the faces that one does see, and would shimmer through and cast shadows there.
+  function dropHiddenFaces(parts) {
+    const numbers = new Map(), faces = new Map();
+    const number = (part, corner) => {
+      const i = 3 * corner, key = part.position[i] + ',' + part.position[i + 1] + ',' + part.position[i + 2];
+      if (!numbers.has(key)) numbers.set(key, numbers.size);
+      return numbers.get(key);
+    };
+    for (const part of parts) {
+      const own = [];
+      for (let point = 0; point < part.position.length / 3; ++point) own.push(number(part, point));
+      for (let t = 0; t < part.index.length; t += 3) {
+        const key = [own[part.index[t]], own[part.index[t + 1]], own[part.index[t + 2]]].sort((a, b) => a - b).join();
+        if (faces.has(key)) faces.get(key).push([part, t]); else faces.set(key, [[part, t]]);
+      }
+    }
+    const hidden = new Map();
+    for (const pair of faces.values())
+      if (pair.length === 2)
+        for (const [part, t] of pair) {
+          if (!hidden.has(part)) hidden.set(part, new Set());
+          hidden.get(part).add(t);
+        }
+    for (const [part, gone] of hidden)
+      part.index = part.index.filter((_, corner) => !gone.has(corner - (corner % 3)));
+  }
+
+  const parts = [];
+  for (const root of gltf.scenes[gltf.scene || 0].nodes) visit(root, new THREE.Matrix4(), null, null);
+  dropHiddenFaces(parts.filter((part) => part.masonry));
+  for (const part of parts) {
+    const tile = Math.round(part.position[0] / kTile_m) + '|' + Math.round(part.position[2] / kTile_m);
+    const key = [part.layer, part.material, part.tiny, tile].join('|');
+    if (!buckets.has(key)) buckets.set(key, { layer: part.layer, material: part.material, tiny: part.tiny, parts: [], points: 0, corners: 0 });
+    const bucket = buckets.get(key);
+    part.first = bucket.corners / 3;
     bucket.parts.push(part);
     bucket.points += part.position.length / 3;
     bucket.corners += part.index.length;
   }
-
-  for (const root of gltf.scenes[gltf.scene || 0].nodes) visit(root, new THREE.Matrix4(), null, null);
   const rooms = things.filter((t) => ['room', 'hallway', 'fixed'].includes(t.about.kind));
   const floors = things.filter((t) => t.about.kind === 'floor');
 
   // ---- the scene ----
   const scene = new THREE.Scene();
   const layers = {};
+  const tiny = [], materials = new Map();
   let triangles = 0;
   for (const bucket of buckets.values()) {
     const position = new Float32Array(bucket.points * 3), normal = new Float32Array(bucket.points * 3);
     const index = new Uint32Array(bucket.corners);
-    const p = new THREE.Vector3(), turn = new THREE.Matrix3();
     let point = 0, corner = 0;
     for (const part of bucket.parts) {
-      turn.getNormalMatrix(part.world);
-      for (let i = 0; i < part.position.length; i += 3) {
-        p.fromArray(part.position, i).applyMatrix4(part.world).toArray(position, point * 3 + i);
-        p.fromArray(part.normal, i).applyMatrix3(turn).toArray(normal, point * 3 + i);
-      }
+      position.set(part.position, point * 3);
+      normal.set(part.normal, point * 3);
       for (let i = 0; i < part.index.length; ++i) index[corner + i] = part.index[i] + point;
       point += part.position.length / 3;
       corner += part.index.length;
@@ -88,16 +130,21 @@
     geometry.setAttribute('position', new THREE.BufferAttribute(position, 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(normal, 3));
     geometry.setIndex(new THREE.BufferAttribute(index, 1));
-    const [r, g, b, alpha] = gltf.materials[bucket.material].pbrMetallicRoughness.baseColorFactor;
-    const clear = alpha !== undefined && alpha < 1;
-    const material = new THREE.MeshLambertMaterial({
-      color: new THREE.Color(r, g, b), transparent: clear, opacity: clear ? alpha : 1, depthWrite: !clear,
-      side: bucket.layer === 'ceilings' ? THREE.DoubleSide : THREE.FrontSide,
-    });
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.castShadow = !clear;
-    mesh.receiveShadow = !clear;
+    if (!materials.has(bucket.material)) {
+      const [r, g, b, alpha] = gltf.materials[bucket.material].pbrMetallicRoughness.baseColorFactor;
+      const clear = alpha !== undefined && alpha < 1;
+      materials.set(bucket.material, new THREE.MeshLambertMaterial({
+        color: new THREE.Color(r, g, b), transparent: clear, opacity: clear ? alpha : 1, depthWrite: !clear,
+        side: bucket.layer === 'ceilings' ? THREE.DoubleSide : THREE.FrontSide,
+      }));
+    }
+    const mesh = new THREE.Mesh(geometry, materials.get(bucket.material));
+    mesh.receiveShadow = !mesh.material.transparent;
     mesh.userData.parts = bucket.parts;
+    if (bucket.tiny) {
+      geometry.computeBoundingSphere();
+      tiny.push(mesh);
+    }
     layers[bucket.layer] = layers[bucket.layer] || new THREE.Group();
     layers[bucket.layer].add(mesh);
     triangles += bucket.corners / 3;
@@ -107,22 +154,66 @@
   const box = new THREE.Box3().setFromObject(scene);
   const middle = box.getCenter(new THREE.Vector3()), extent = box.getSize(new THREE.Vector3());
   const radius = extent.length() / 2;
-  scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b2a6, 0.7));
-  const sun = new THREE.DirectionalLight(0xfff4e2, 0.4);
-  sun.position.copy(middle).add(new THREE.Vector3(0.45, 1, 0.3).multiplyScalar(2 * radius));
+  const sky = new THREE.HemisphereLight(0xffffff, 0xdfd9cf, 0.66);
+  sky.position.set(0.3, 1, -0.15);  // aslant, so that no two sides in the shade look the same
+  const sun = new THREE.DirectionalLight(0xfff4e2, 0.42);
   sun.target.position.copy(middle);
-  sun.castShadow = true;
-  sun.shadow.mapSize.set(4096, 4096);
-  Object.assign(sun.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: radius / 10, far: 5 * radius });
-  sun.shadow.bias = -0.0004;
-  scene.add(sun, sun.target);
+  scene.add(sky, sun, sun.target);
+
+  /// In the open the sun shines and everything casts shadows. In a room the light comes from its ceiling, and only
+  /// furniture does; a plan has no shadows.
+  const lights = {
+    open: { from: [-0.55, 1, 0.35], sun: 0.42, sky: 0.66, casters: ['building', 'openings', 'furniture', 'ceilings'] },
+    room: { from: [0.12, 1, 0.08], sun: 0.26, sky: 0.78, casters: ['furniture'] },
+    plan: { from: [-0.2, 1, 0.12], sun: 0.36, sky: 0.72, casters: [] },
+  };
+  function light(name) {
+    const mode = lights[name];
+    sun.position.copy(middle).add(new THREE.Vector3(...mode.from).multiplyScalar(2 * radius));
+    sun.intensity = mode.sun;
+    sky.intensity = mode.sky;
+    sun.castShadow = mode.casters.length > 0;
+    for (const [layer, group] of Object.entries(layers))
+      for (const mesh of group.children) mesh.castShadow = !mesh.material.transparent && mode.casters.includes(layer);
+    fitShadows();
+  }
+
+  /// The shadow map covers the floor as the sun sees it, as tightly as it can.
+  function fitShadows() {
+    const map = sun.shadow.mapSize.set(4096, 4096), eye = sun.shadow.camera, seen = new THREE.Box3();
+    eye.position.copy(sun.position);
+    eye.lookAt(middle);
+    eye.updateMatrixWorld();
+    const toSun = new THREE.Matrix4().getInverse(eye.matrixWorld);
+    for (const x of [box.min.x, box.max.x])
+      for (const y of [box.min.y, box.max.y])
+        for (const z of [box.min.z, box.max.z]) seen.expandByPoint(new THREE.Vector3(x, y, z).applyMatrix4(toSun));
+    Object.assign(eye, {
+      left: seen.min.x - 0.1, right: seen.max.x + 0.1, bottom: seen.min.y - 0.1, top: seen.max.y + 0.1,
+      near: -seen.max.z - 1, far: -seen.min.z + 2 * extent.y + 1,
+    });
+    const texel = Math.max(eye.right - eye.left, eye.top - eye.bottom) / map.x;
+    sun.shadow.bias = -Math.max(0.01, 1.5 * texel) / (eye.far - eye.near);
+  }
+
+  const ground = new THREE.Mesh(new THREE.PlaneBufferGeometry(8 * radius, 8 * radius), new THREE.ShadowMaterial({ opacity: 0.16 }));
+  ground.rotation.x = -Math.PI / 2;
+  ground.position.copy(middle).setY(box.min.y - 0.01);
+  ground.receiveShadow = true;
+  scene.add(ground);
 
   const selection = new THREE.Group();
   scene.add(selection);
 
+  // Without a graphics card smooth edges cost more than all the rest: then they are left to pictures that stand.
+  function drawnBySoftware() {
+    const gl = document.createElement('canvas').getContext('webgl'), about = gl && gl.getExtension('WEBGL_debug_renderer_info');
+    return !!about && /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(about.UNMASKED_RENDERER_WEBGL));
+  }
+  const software = drawnBySoftware();
   let renderer;
   try {
-    renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    renderer = new THREE.WebGLRenderer({ antialias: !software, alpha: true });
   } catch (error) {
     $('view').innerHTML = '<p id="fault">This browser shows no 3D (WebGL is off). The table and the plan work without it.</p>';
   }
@@ -137,8 +228,28 @@
     $('view').appendChild(renderer.domElement);
   }
 
+  let later = 0;
+  function render(pixels) {
+    if (renderer.getPixelRatio() !== pixels) renderer.setPixelRatio(pixels);
+    if (camera === perspective) {
+      // The nearest plane as far away as it can be: depth is then fine enough for faces two centimetres apart.
+      perspective.near = walking || !orbit ? 0.05 : Math.max(0.05, perspective.position.distanceTo(orbit.target) / 50);
+      perspective.updateProjectionMatrix();
+    }
+    for (const mesh of tiny) {
+      const sphere = mesh.geometry.boundingSphere;
+      mesh.visible = camera === flat || perspective.position.distanceTo(sphere.center) < sphere.radius + kTiny_m;
+    }
+    renderer.render(scene, camera);
+  }
+  function drawSharp() {
+    render(window.devicePixelRatio * (software && triangles < 300000 ? 2 : 1));
+  }
   function draw() {
-    if (renderer) renderer.render(scene, camera);
+    if (!renderer) return;
+    render(window.devicePixelRatio);
+    clearTimeout(later);
+    if (software) later = setTimeout(drawSharp, 150);
   }
   function redrawShadows() {
     if (renderer) renderer.shadowMap.needsUpdate = true;
@@ -147,7 +258,6 @@
   function resize() {
     if (!renderer) return;
     const width = $('view').clientWidth, height = $('view').clientHeight;
-    renderer.setPixelRatio(window.devicePixelRatio);
     renderer.setSize(width, height);
     perspective.aspect = width / height;
     perspective.updateProjectionMatrix();
@@ -214,6 +324,9 @@
     walking = name === 'inside';
     camera = name === 'plan' ? flat : perspective;
     show('ceilings', name === 'outside' || walking);
+    light(walking ? 'room' : name === 'plan' ? 'plan' : 'open');
+    ground.visible = !walking && name !== 'plan';
+    selection.visible = !walking;
     perspective.fov = walking ? 75 : 50;
     $('hint').textContent = hints[walking ? 'walk' : name === 'plan' ? 'plan' : 'orbit'];
     const target = middle.clone();
@@ -224,7 +337,7 @@
       target.y = 0;
     } else if (!walking) {
       const direction = name === 'outside' ? new THREE.Vector3(0.5, 0.42, 0.85) : new THREE.Vector3(0.12, 1, 0.62);
-      perspective.position.copy(middle).add(direction.normalize().multiplyScalar(radius * 1.95));
+      perspective.position.copy(middle).add(direction.normalize().multiplyScalar(radius * 2.05));
       perspective.lookAt(middle);
     }
     resize();
@@ -286,10 +399,13 @@
     }
     if (thing.about.outline && thing.floor && thing.about.kind !== 'floor') {
       const base = thing.floor.about.elevation, top = base + (thing.about.height || thing.about.top || 0);
-      for (const height of [base + 0.03, top - 0.02]) {
-        const loop = new THREE.BufferGeometry().setFromPoints(thing.about.outline.map((p) => toScene(p, height)));
-        selection.add(new THREE.LineLoop(loop, new THREE.LineBasicMaterial({ color: 0xd1495b, depthTest: false })));
-      }
+      const area = new THREE.ShapeGeometry(new THREE.Shape(thing.about.outline.map((p) => new THREE.Vector2(p[0] - origin.x, p[1] - origin.y))));
+      area.rotateX(-Math.PI / 2);
+      const tint = new THREE.Mesh(area, new THREE.MeshBasicMaterial({ color: 0xd1495b, transparent: true, opacity: 0.3, depthWrite: false }));
+      tint.position.y = thing.about.kind === 'furniture' ? top + 0.01 : base + 0.02;
+      selection.add(tint);
+      const loop = new THREE.BufferGeometry().setFromPoints(thing.about.outline.map((p) => toScene(p, top + 0.01)));
+      selection.add(new THREE.LineLoop(loop, new THREE.LineBasicMaterial({ color: 0xd1495b })));
     }
     draw();
   }
@@ -385,14 +501,18 @@
     select(thingAt(rect.left + x * rect.width, rect.top + y * rect.height));
   }
   if (state.measure && renderer) {
-    const pixel = new Uint8Array(4), gl = renderer.getContext(), start = performance.now();
-    for (let i = 0; i < 10; ++i) {
+    const pixel = new Uint8Array(4), gl = renderer.getContext();
+    const frame = () => {
       perspective.position.x += 0.01;
-      draw();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-    }
+      render(window.devicePixelRatio);
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);  // waits until the frame is drawn
+    };
+    frame();  // shadows and shaders
+    const start = performance.now();
+    for (let i = 0; i < 10; ++i) frame();
     $('frame').textContent = ((performance.now() - start) / 10).toFixed(1) + ' ms a frame, ' + renderer.info.render.calls +
       ' draw calls, ' + triangles + ' triangles';
   }
+  if (renderer) drawSharp();
   document.body.dataset.ready = renderer ? 'yes' : 'no3d';
 })();
