@@ -135,7 +135,6 @@
       const clear = alpha !== undefined && alpha < 1;
       materials.set(bucket.material, new THREE.MeshLambertMaterial({
         color: new THREE.Color(r, g, b), transparent: clear, opacity: clear ? alpha : 1, depthWrite: !clear,
-        side: bucket.layer === 'ceilings' ? THREE.DoubleSide : THREE.FrontSide,
       }));
     }
     const mesh = new THREE.Mesh(geometry, materials.get(bucket.material));
@@ -222,6 +221,7 @@
   let camera = perspective, orbit = null, walking = false, yaw = 0, pitch = 0;
   if (renderer) {
     renderer.gammaOutput = true;
+    renderer.localClippingEnabled = true;
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = THREE.PCFShadowMap;
     renderer.shadowMap.autoUpdate = false;
@@ -280,6 +280,17 @@
     orbit.addEventListener('change', draw);
     orbit.update();
   }
+  /// As plans are drawn: the building, not its furniture, cut open above the upper storey's window sills, so that doors
+  /// and windows show.
+  function cut(open) {
+    const height = Math.max(...floors.map((f) => f.about.elevation)) + 1.2;
+    const plane = new THREE.Plane(new THREE.Vector3(0, -1, 0), height);
+    for (const [index, material] of materials) {
+      material.clippingPlanes = open && !/^(furniture|seat)/.test(gltf.materials[index].name) ? [plane] : null;
+      material.side = open || gltf.materials[index].name === 'ceiling' ? THREE.DoubleSide : THREE.FrontSide;
+      material.needsUpdate = true;
+    }
+  }
   function show(layer, visible) {
     if (layers[layer]) layers[layer].visible = visible;
     const tick = document.querySelector('[data-layer=' + layer + ']');
@@ -327,6 +338,7 @@
     light(walking ? 'room' : name === 'plan' ? 'plan' : 'open');
     ground.visible = !walking && name !== 'plan';
     selection.visible = !walking;
+    cut(name === 'plan');
     perspective.fov = walking ? 75 : 50;
     $('hint').textContent = hints[walking ? 'walk' : name === 'plan' ? 'plan' : 'orbit'];
     const target = middle.clone();
