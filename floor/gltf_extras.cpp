@@ -135,6 +135,9 @@ ordered extras_of_floor(const FittedFloor& floor) {
     }
     about["spaces"].push_back(std::move(said));
   }
+  about["pins"] = ordered::array();
+  for (const Pin& pin : floor.floor.pins)
+    about["pins"].push_back({{"room", pin.room}, {"at", {pin.at.x(), pin.at.y()}}, {"sigma", pin.sigma_m}});
   about["set_aside"] = ordered::array();
   for (const SetAsideInput& aside : floor.set_aside)
     about["set_aside"].push_back({{"what", aside.what}, {"reason", aside.reason}});
@@ -230,6 +233,11 @@ FittedFloor floor_of_extras(const json& about) {
       space.alternatives.push_back(std::move(alternative));
     });
     floor.spaces.push_back(std::move(space));
+  });
+  each(member(about, "pins"), [&floor](const json& pin) {
+    const std::vector<Vec2> at = plan_points(json::array({member(pin, "at")}));
+    if (at.size() == 1 && number(pin, "sigma") > 0)
+      floor.floor.pins.push_back({text(pin, "room"), at[0], number(pin, "sigma")});
   });
   each(member(about, "set_aside"), [&floor](const json& aside) {
     floor.set_aside.push_back({text(aside, "what"), text(aside, "reason")});

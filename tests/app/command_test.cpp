@@ -36,6 +36,26 @@ TEST_CASE("the example fits: a table, a verified model, exit 0, the same bytes a
   CHECK(read_file(project.model()) == model);
 }
 
+TEST_CASE("a fitted floor as GeoJSON gives back the same rooms to evaluate, to learn and to fit") {
+  const Project project;
+  const auto quoted = [](const fs::path& path) { return " '" + path.string() + "'"; };
+  const fs::path floor = project.folder() / "fitted.geojson", learned = project.folder() / "learned.grammar";
+  const auto first = project.fit("-q");
+  REQUIRE_MESSAGE(first.code == 0, first.error);
+  REQUIRE(project.run("export -q" + quoted(project.model()) + " -o" + quoted(floor)).code == 0);
+  const auto judged = project.run("evaluate" + quoted(project.model()) + quoted(floor));
+  CHECK(judged.code == 0);
+  CHECK_MESSAGE(has(judged.out, "5 of 5 rooms, all in order"), judged.out);
+  CHECK_MESSAGE(has(judged.out, "4 of 4 rooms, all in order"), judged.out);
+  const auto rules = project.run("learn" + quoted(floor) + " -o" + quoted(learned));
+  CHECK_MESSAGE(rules.code == 0, rules.error);
+  CHECK_MESSAGE(has(rules.error + rules.out, "from 9 rooms in 2 spaces"), rules.error);
+  const auto again = project.run("fit -q" + quoted(floor) + " --scans" + quoted(project.office() / "scans") +
+                                 " --rules" + quoted(project.rules()) + " -o" + quoted(project.model()));
+  CHECK_MESSAGE(again.code == 0, again.error);
+  CHECK(again.out == first.out);
+}
+
 TEST_CASE("one bad room is said and derived instead: exit 4") {
   const Project project;
   std::string why;

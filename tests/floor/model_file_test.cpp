@@ -31,6 +31,7 @@ FittedFloor furnished_floor() {
   floor.outline = rectangle(0, 0, 8.6, 10.6);
   floor.hallways = {{"F1", "Flur", rectangle(0.3, 4.3, 8.3, 6.3)}};
   floor.spaces = {{"north", "F1", rectangle(0.3, 6.5, 8.3, 10.3), {0.3, 6.5}, {8.3, 6.5}}};
+  floor.pins = {{"101", {2, 8}, 0.4}};
   FloorTruth truth;
   truth.rooms = {{"101", "Office", "Büro <1>", rectangle(0.3, 6.5, 4.2, 10.3), 0, 2.6},
                  {"102", "Office", "", rectangle(4.4, 6.5, 8.3, 10.3), 0, 2.6},
@@ -96,6 +97,10 @@ TEST_CASE("a model read back is the floor that was written, and its file passes 
     CHECK(read.floor.rooms[i].space == written.rooms[i].space);
   }
   CHECK(read.floor.floor.spaces.size() == 1);
+  REQUIRE(read.floor.floor.pins.size() == 1);
+  CHECK(read.floor.floor.pins[0].room == "101");
+  CHECK(read.floor.floor.pins[0].at == Vec2(2, 8));
+  CHECK(read.floor.floor.pins[0].sigma_m == 0.4);
   CHECK(read.floor.rooms[2].furniture.size() == 3);
   CHECK(verify(build_model(read.floor)).ok());
   const ReadModel text = read_model(saved("furnished.gltf", to_gltf({build_model(written)}, {})));
