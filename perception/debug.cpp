@@ -161,6 +161,28 @@ std::string svg_of(const Perception& found) {
     print(text, "%c%.1f %.1f", i ? 'L' : 'M', p.x(), p.y());
   }
   text += found.outline.ring.empty() ? "\"/>\n" : "z\"/>\n";
+  const Vec2 origin = found.cloud.origin_m.head<2>();
+  for (const OpeningObservation& opening : found.observation.openings) {
+    const WallObservation& wall = found.observation.walls[static_cast<std::size_t>(opening.wall)];
+    const Vec2 along = (wall.b - wall.a).normalized(), start = wall.a - origin + opening.start_m * along;
+    const Vec2 a = at(start), b = at(start + opening.width_m * along);
+    print(text,
+          "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"9\" "
+          "stroke-opacity=\"0.6\"><title>%s, %.2f</title></line>\n",
+          a.x(), a.y(), b.x(), b.y(), opening.kind == "door" ? "#b50" : "#09c", opening.kind.c_str(),
+          opening.confidence);
+  }
+  for (const FurnitureObservation& piece : found.observation.furniture) {
+    text += "<path fill=\"#fa0\" fill-opacity=\"0.35\" stroke=\"#a60\" d=\"";
+    Vec2 middle = Vec2::Zero();
+    for (std::size_t i = 0; i < piece.footprint.size(); ++i) {
+      const Vec2 p = at(piece.footprint[i] - origin);
+      middle += p / static_cast<double>(piece.footprint.size());
+      print(text, "%c%.1f %.1f", i ? 'L' : 'M', p.x(), p.y());
+    }
+    print(text, "z\"/>\n<text x=\"%.1f\" y=\"%.1f\" font-size=\"13\" text-anchor=\"middle\">%s %.2f</text>\n",
+          middle.x(), middle.y(), piece.type.c_str(), piece.top_m);
+  }
   for (const RegisteredCloud::Part& part : found.cloud.parts) {
     const Vec2 p = at(part.scanner_m.head<2>());
     print(text, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#00c\"/>\n", p.x(), p.y());

@@ -15,8 +15,11 @@ constexpr double kCutStep_m = 0.1;
 constexpr double kLeastSide_m = 0.22;
 constexpr int kCutDepth = 2;
 constexpr double kEqualBonus = 1.15;  // tables that make one surface mostly are of one size
-constexpr double kAtWall_m = 0.16;    // a side nearer to a wall than this is at it
-constexpr double kDeepest_m = 0.8;    // no cupboard reaches farther from the wall
+constexpr double kSeamMalus = 0.7;    // a chair stands where the cut would be
+constexpr double kChairVotes = 0.3;
+constexpr double kSeatHalf_m = 0.2, kSeatReach_m = 0.6;  // a chair and how far it stands from its table
+constexpr double kAtWall_m = 0.16;                       // a side nearer to a wall than this is at it
+constexpr double kDeepest_m = 0.8;                       // no cupboard reaches farther from the wall
 
 double quantile(std::vector<double>& values, double share) {
   const auto nth =
@@ -143,27 +146,56 @@ struct Cutting {
   std::vector<int> pieces;
 };
 
-Cutting best_cutting(const FurnitureCandidates& candidates, int at, const Forest& forest) {
-  const FurnitureCandidate& candidate = candidates.all[static_cast<std::size_t>(at)];
-  const double sure = 1 - forest.votes(candidate.features)[kNoFurniture];
-  const auto equal = [&](int a, int b) {
-    const double p = std::abs(signed_area(candidates.all[static_cast<std::size_t>(a)].footprint)),
-                 q = std::abs(signed_area(candidates.all[static_cast<std::size_t>(b)].footprint));
-    return std::min(p, q) > 0.85 * std::max(p, q);
-  };
-  Cutting best{sure * std::abs(signed_area(candidate.footprint)), {at}};
-  for (std::size_t i = 0; i + 1 < candidate.parts.size(); i += 2) {
-    Cutting first = best_cutting(candidates, candidate.parts[i], forest);
-    Cutting second = best_cutting(candidates, candidate.parts[i + 1], forest);
-    double worth = first.worth + second.worth;
-    if (first.pieces.size() == 1 && second.pieces.size() == 1 && equal(first.pieces[0], second.pieces[0]))
-      worth *= kEqualBonus;
-    if (worth <= 1.05 * best.worth) continue;  // one thing unless two are clearly likelier
-    best = {worth, std::move(first.pieces)};
-    best.pieces.insert(best.pieces.end(), second.pieces.begin(), second.pieces.end());
+/// Chooses how to cut what stands together. Two equal tables pushed together can often be cut two ways;
+/// people sit at the middle of a table, not where two meet.
+class CuttingChooser {
+ public:
+  CuttingChooser(const FurnitureCandidates& candidates, const Forest& forest)
+      : candidates_(candidates), forest_(forest) {
+    for (const int root : candidates.roots)
+      if (forest.votes(at(root).features)[kChair] > kChairVotes)
+        chairs_.push_back(centroid(at(root).footprint));
   }
-  return best;
-}
+
+  Cutting best(int whole) const {
+    const FurnitureCandidate& candidate = at(whole);
+    const double sure = 1 - forest_.votes(candidate.features)[kNoFurniture];
+    Cutting best_one{sure * area(whole), {whole}};
+    for (std::size_t i = 0; i + 1 < candidate.parts.size(); i += 2) {
+      Cutting first = best(candidate.parts[i]), second = best(candidate.parts[i + 1]);
+      double worth = first.worth + second.worth;
+      if (first.pieces.size() == 1 && second.pieces.size() == 1) {
+        if (equal(first.pieces[0], second.pieces[0])) worth *= kEqualBonus;
+        if (chair_at_seam(first.pieces[0], second.pieces[0])) worth *= kSeamMalus;
+      }
+      if (worth <= 1.05 * best_one.worth) continue;  // one thing unless two are clearly likelier
+      best_one = {worth, std::move(first.pieces)};
+      best_one.pieces.insert(best_one.pieces.end(), second.pieces.begin(), second.pieces.end());
+    }
+    return best_one;
+  }
+
+ private:
+  const FurnitureCandidate& at(int i) const { return candidates_.all[static_cast<std::size_t>(i)]; }
+  double area(int i) const { return std::abs(signed_area(at(i).footprint)); }
+  bool equal(int a, int b) const { return std::min(area(a), area(b)) > 0.85 * std::max(area(a), area(b)); }
+  bool chair_at_seam(int a, int b) const {
+    const Polygon &p = at(a).footprint, &q = at(b).footprint;
+    const Vec2 across = (centroid(q) - centroid(p)).normalized();
+    double last = across.dot(p[0]), first = across.dot(q[0]);
+    for (const Vec2& corner : p) last = std::max(last, across.dot(corner));
+    for (const Vec2& corner : q) first = std::min(first, across.dot(corner));
+    const double seam = 0.5 * (first + last);
+    return std::any_of(chairs_.begin(), chairs_.end(), [&](const Vec2& chair) {
+      return std::abs(across.dot(chair) - seam) < kSeatHalf_m &&
+             distance_to_border(p, chair) < kSeatReach_m && distance_to_border(q, chair) < kSeatReach_m;
+    });
+  }
+
+  const FurnitureCandidates& candidates_;
+  const Forest& forest_;
+  std::vector<Vec2> chairs_;
+};
 
 /// One of the two hides most of the other in the plan.
 bool same_place(const FurnitureObservation& a, const FurnitureObservation& b) {
@@ -204,9 +236,10 @@ std::vector<FurnitureObservation> find_furniture(const RegisteredCloud& cloud, c
     FurnitureObservation observed;
     double sure;
   };
+  const CuttingChooser chooser(candidates, forest);
   std::vector<Piece> found;
   for (const int root : candidates.roots)
-    for (const int piece : best_cutting(candidates, root, forest).pieces) {
+    for (const int piece : chooser.best(root).pieces) {
       const FurnitureCandidate& candidate = candidates.all[static_cast<std::size_t>(piece)];
       const std::vector<double> votes = forest.votes(candidate.features);
       const double sure = 1 - votes[kNoFurniture];

@@ -23,7 +23,7 @@ struct FurnitureOptions {
   double from_wall_m = 0.07;  ///< points nearer to a wall are the wall's
   double least_area_m2 = 0.05;
   double most_floor_share = 0.5;  ///< of the room: larger is a floor, not furniture
-  double least_confidence = 0.4;  ///< share of the forest's votes for any of the three classes
+  double least_confidence = 0.35;  ///< share of the forest's votes for any of the three classes
 };
 
 /// A box in the plan that may be a piece of furniture.

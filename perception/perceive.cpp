@@ -130,6 +130,7 @@ Perception perceive(RegisteredCloud cloud, const std::string& room, const Percep
         find_furniture(found.cloud, found.observation, shipped_furniture_forest(), options.furniture);
     stages.end("furniture");
   }
+  if (options.on_found) options.on_found(found);
   return found;
 }
 

@@ -25,7 +25,8 @@ struct PerceptionOptions {
   bool find_furniture = true;
   /// Called after each stage with its name and seconds; may be empty.
   std::function<void(const std::string& stage, double seconds)> on_stage;
-  /// Called with what the stages found, also when they found no room; may be empty.
+  /// Called with what the stages found, also when they found no room, and by `perceive` again with openings
+  /// and furniture; may be empty.
   std::function<void(const Perception& found)> on_found;
 };
 
