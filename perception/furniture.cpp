@@ -31,11 +31,11 @@ double quantile(std::vector<double>& values, double share) {
 /// The box of the points. A surface's points lie evenly over it, so its sides follow from where all but a
 /// twentieth of them at either end lie, and stray ones do not count; a body's lie on its sides, so its sides
 /// are where they end.
-Extent extent_of(const std::vector<Vec2>& points, const Vec2& axis, bool even) {
+AxisBox extent_of(const std::vector<Vec2>& points, const Vec2& axis, bool even) {
   std::vector<double> u, v;
   for (const Vec2& p : points) u.push_back(axis.dot(p)), v.push_back(-axis.y() * p.x() + axis.x() * p.y());
   const double cut = even ? 0.05 : 0.01, beyond = even ? cut / (1 - 2 * cut) : 0;
-  Extent e{quantile(u, cut), quantile(u, 1 - cut), quantile(v, cut), quantile(v, 1 - cut)};
+  AxisBox e{quantile(u, cut), quantile(u, 1 - cut), quantile(v, cut), quantile(v, 1 - cut)};
   const double grow_u = beyond * (e.u1 - e.u0), grow_v = beyond * (e.v1 - e.v0);
   e.u0 -= grow_u, e.u1 += grow_u, e.v0 -= grow_v, e.v1 += grow_v;
   return e;
@@ -45,8 +45,8 @@ Extent extent_of(const std::vector<Vec2>& points, const Vec2& axis, bool even) {
 /// direction.
 Vec2 axis_of(const FurnitureSurface& surface, const Vec2& room_axis) {
   const OrientedBox own = oriented_box(surface.points);
-  const Extent along_walls = extent_of(surface.points, room_axis, surface.top_seen),
-               as_own = extent_of(surface.points, own.axis, surface.top_seen);
+  const AxisBox along_walls = extent_of(surface.points, room_axis, surface.top_seen),
+                as_own = extent_of(surface.points, own.axis, surface.top_seen);
   return as_own.area() < 0.85 * along_walls.area() ? own.axis : room_axis;
 }
 
@@ -60,7 +60,7 @@ class Cutter {
   /// The candidate of some of the surface's points, and of its parts; −1 when they are too few or too small.
   int cut(const std::vector<Vec2>& points, int depth, double least_area_m2) {
     if (points.size() < 8) return -1;
-    Extent e = extent_of(points, axis_, surface_.top_seen);
+    AxisBox e = extent_of(points, axis_, surface_.top_seen);
     reach_walls(e);
     if (e.u1 - e.u0 < kLeastSide_m || e.v1 - e.v0 < kLeastSide_m || e.area() < least_area_m2) return -1;
     const auto mine = static_cast<int>(candidates_.all.size());
@@ -87,10 +87,10 @@ class Cutter {
  private:
   /// Points at the walls were left to the walls: sides that end near one end at it. Of a body that only its
   /// front is seen of, the rest is between the front and the wall behind, where nothing was seen.
-  void reach_walls(Extent& e) const {
+  void reach_walls(AxisBox& e) const {
     const bool flat[] = {2 * (e.u1 - e.u0) < e.v1 - e.v0, 2 * (e.v1 - e.v0) < e.u1 - e.u0};
     double* const sides[] = {&e.u0, &e.u1, &e.v0, &e.v1};
-    const Extent seen = e;
+    const AxisBox seen = e;
     for (int i = 0; i < 4; ++i) {
       const double gap_m = gap_behind(seen, i);
       const bool hidden = !surface_.top_seen && flat[i / 2] && gap_m <= kDeepest_m && unseen(seen, i, gap_m);
@@ -103,13 +103,13 @@ class Cutter {
     return side % 2 == 0 ? Vec2(-direction) : direction;
   }
 
-  static double end_of(const Extent& e, int side) {
+  static double end_of(const AxisBox& e, int side) {
     const double ends[] = {-e.u0, e.u1, -e.v0, e.v1};
     return ends[side];
   }
 
   /// From the middle of a side to the wall that it faces.
-  double gap_behind(const Extent& e, int side) const {
+  double gap_behind(const AxisBox& e, int side) const {
     const Vec2 along = side < 2 ? Vec2(-axis_.y(), axis_.x()) : axis_;
     const double middle = side < 2 ? 0.5 * (e.v0 + e.v1) : 0.5 * (e.u0 + e.u1);
     const Vec2 at = end_of(e, side) * outward(side) + middle * along;
@@ -119,7 +119,7 @@ class Cutter {
   }
 
   /// Neither floor nor anything else was measured in most of the strip behind a side.
-  bool unseen(const Extent& e, int side, double gap_m) const {
+  bool unseen(const AxisBox& e, int side, double gap_m) const {
     const Vec2 along = side < 2 ? Vec2(-axis_.y(), axis_.x()) : axis_;
     const double from = side < 2 ? e.v0 : e.u0, to = side < 2 ? e.v1 : e.u1;
     int places = 0, seen = 0;

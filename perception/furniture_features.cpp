@@ -63,7 +63,7 @@ void count_beside(Shares& shares, const FurnitureCells& cells, int column, int r
   shares.step_beside += std::abs(end - top_m) > 0.1 && std::abs(end - top_m) < 0.24;
 }
 
-Shares shares_of(const FurnitureCells& cells, const Extent& e, const Vec2& axis, double top_m) {
+Shares shares_of(const FurnitureCells& cells, const AxisBox& e, const Vec2& axis, double top_m) {
   Shares shares;
   Vec2 low = ring_of(e, axis)[0], high = low;
   for (const Vec2& p : ring_of(e, axis)) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -86,7 +86,7 @@ Shares shares_of(const FurnitureCells& cells, const Extent& e, const Vec2& axis,
 
 }  // namespace
 
-Polygon ring_of(const Extent& e, const Vec2& axis) {
+Polygon ring_of(const AxisBox& e, const Vec2& axis) {
   const Vec2 left = left_of(axis);
   return {e.u0 * axis + e.v0 * left, e.u1 * axis + e.v0 * left, e.u1 * axis + e.v1 * left,
           e.u0 * axis + e.v1 * left};
@@ -102,7 +102,7 @@ const std::vector<std::string>& furniture_feature_names() {
 }
 
 std::vector<float> furniture_features(const FurnitureCells& cells, const FurnitureSurface& surface,
-                                      const std::vector<Vec2>& points, const Extent& e, const Vec2& axis,
+                                      const std::vector<Vec2>& points, const AxisBox& e, const Vec2& axis,
                                       bool whole) {
   const double length = std::max(e.u1 - e.u0, e.v1 - e.v0), breadth = std::min(e.u1 - e.u0, e.v1 - e.v0);
   const Polygon ring = ring_of(e, axis), hull = convex_hull(points);

@@ -9,17 +9,17 @@
 namespace gramap {
 
 /// A rectangle in the frame of a direction: extents along it and to its left, metres.
-struct Extent {
+struct AxisBox {
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   double area() const { return (u1 - u0) * (v1 - v0); }
 };
 
-Polygon ring_of(const Extent& extent, const Vec2& axis);
+Polygon ring_of(const AxisBox& extent, const Vec2& axis);
 
 /// The features of a surface's part: `points` are the part's, `extent` its box along `axis`;
 /// `whole`: they are all of the surface.
 std::vector<float> furniture_features(const FurnitureCells& cells, const FurnitureSurface& surface,
-                                      const std::vector<Vec2>& points, const Extent& extent, const Vec2& axis,
-                                      bool whole);
+                                      const std::vector<Vec2>& points, const AxisBox& extent,
+                                      const Vec2& axis, bool whole);
 
 }  // namespace gramap
