@@ -3,7 +3,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 FUZZ_SECONDS ?= 60
-.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all test-campus packages deb docs format format-check clean
+.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all test-campus bench tidy coverage packages deb docs format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
@@ -43,6 +43,24 @@ fuzz: packages
 test-campus: build
 	scripts/install-packages packages-campus.txt
 	tests/campus/run $(CURDIR)/build/gramap $(CURDIR)/build/tests/campus
+
+# Every stage over a ladder of sizes: a Markdown table, to be compared with tests/bench/compare. On a quiet machine.
+bench: build
+	cmake --build --preset $(PRESET) -j $(JOBS) --target bench_measure
+	tests/bench/table build | tee build/bench.md
+
+# clang-tidy over all sources (.clang-tidy says what); what it finds is an error.
+tidy: build
+	scripts/install-packages packages-tidy.txt
+	git ls-files '*.cpp' | grep -v '^tests/' | xargs -P $(JOBS) -n 4 clang-tidy -p build --quiet
+
+# The share of lines of gramap that the tests run.
+coverage: packages
+	scripts/install-packages packages-coverage.txt
+	cmake --preset coverage
+	cmake --build --preset coverage -j $(JOBS)
+	ctest --preset coverage
+	gcovr --root . --filter 'geometry/' --filter 'grammar/' --filter 'perception/' --filter 'floor/' --filter 'app/' build/coverage --print-summary
 
 packages:
 	scripts/install-packages

@@ -59,7 +59,7 @@ std::string manual_page(const std::vector<VerbRow>& verbs, const std::string& ve
       "input had to be set "
       "aside.\n.SH FILES\n.TP\n.I /usr/share/gramap/rules\nRule files, and how to write one "
       "(README.md).\n.TP\n"
-      ".I /usr/share/doc/gramap/examples\nA small complete project.\n.SH SEE ALSO\n";
+      ".I /usr/share/gramap/examples\nSmall complete projects.\n.SH SEE ALSO\n";
   for (const VerbRow& verb : verbs)
     page += ".BR gramap\\-" + troff(verb.name) + " (1)" + (&verb == &verbs.back() ? "\n" : ",\n");
   return page;
