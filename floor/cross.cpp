@@ -212,6 +212,15 @@ std::vector<Job> draw_jobs(const std::vector<const KnownRow*>& rows, double wall
   return jobs;
 }
 
+/// Rules that cannot be laid into a space at all, say because a unit is too deep for it, make it impossible.
+double likelihood_or_none(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  try {
+    return log_likelihood(rules, problem, options);
+  } catch (const InputError&) {
+    return -std::numeric_limits<double>::infinity();
+  }
+}
+
 }  // namespace
 
 const char* to_string(CrossMethod method) {
@@ -308,7 +317,7 @@ std::vector<HeldOutLikelihood> held_out_likelihoods(
     for (const auto& [name, rules] : candidates) {
       std::vector<double> logs(problems.size());
       tbb::parallel_for(std::size_t{0}, problems.size(),
-                        [&](std::size_t i) { logs[i] = log_likelihood(rules, problems[i], options); });
+                        [&](std::size_t i) { logs[i] = likelihood_or_none(rules, problems[i], options); });
       double sum = 0;
       for (const double value : logs) sum += value;
       result.push_back({floor, name, sum / std::max(1.0, rooms)});

@@ -9,6 +9,7 @@
 #include "grammar/keywords.h"
 #include "grammar/learn_habits.h"
 #include "grammar/learn_sequence.h"
+#include "grammar/learn_unseen.h"
 #include "grammar/learn_width.h"
 
 namespace gramap {
@@ -333,6 +334,58 @@ void share_out(LearnedRules& rules, const std::vector<ClassPlaces>& places, bool
   if (!first) rules.background = std::clamp(0.1 * unseen, 0.001, 0.05);
 }
 
+/// Rules for rooms of a known type in a width of their own, and the background: as often as the data says
+/// that rooms on a floor not seen are such.
+void leave_unseen(LearnedRules& rules, const std::vector<ClassPlaces>& places,
+                  const std::vector<std::vector<int>>& classes) {
+  const UnseenShares shares = unseen_shares(rules, classes);
+  for (const bool first : {true, false}) {
+    double seen = 0, probability = 0;
+    for (const LearnedRule& rule : rules.rules)
+      if (rule.first == first && rule.any_type < 0) seen += 1, probability += rule.probability;
+    for (LearnedRule& rule : rules.rules) {
+      if (rule.first != first) continue;
+      if (rule.any_type < 0)
+        rule.probability = (1 - shares.even) * rule.probability + shares.even * probability / seen;
+      rule.probability *= 1 - shares.other_width;
+    }
+    std::vector<double> stood(rules.types.size(), 0);
+    double total = 0;
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      const double count = first ? places[c].first : places[c].inner + places[c].last;
+      stood[at(rules.classes[c].type)] += count;
+      total += count;
+    }
+    for (std::size_t t = 0; t < rules.types.size(); ++t) {
+      if (stood[t] < 2) continue;
+      LearnedRule rule;
+      rule.first = first;
+      rule.any_type = static_cast<int>(t);
+      rule.other_width = any_width(rules, classes, rule.any_type);
+      rule.probability = shares.other_width * stood[t] / total;
+      add_rule(rules, rule, (first ? "first_other_" : "other_") + lower(rules.types[t].name));
+    }
+  }
+  rules.background = std::clamp(shares.background, rules.background, 0.1);
+}
+
+/// Whatever a room follows, a room that no rule foresees is as likely as anywhere.
+void keep_unseen_after(LearnedRules& rules) {
+  double unseen = 0, total = 0;
+  for (const LearnedRule& rule : rules.rules) {
+    if (rule.first) continue;
+    total += rule.probability;
+    if (rule.any_type >= 0) unseen += rule.probability;
+  }
+  for (LearnedRule& rule : rules.rules) {
+    double named = 0;
+    for (const auto& [next, share] : rule.after) named += share;
+    const double most = 1 - unseen / total;
+    if (named <= most) continue;
+    for (auto& [next, share] : rule.after) share *= most / named;
+  }
+}
+
 /// What a rule leaves behind for the next one to look at: the type and size of its last room. First rooms
 /// count with their like, though an outer wall cuts into them.
 std::pair<int, long> kind_of(const LearnedRules& rules, const LearnedRule& rule) {
@@ -462,6 +515,7 @@ void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classe
     }
   share_out(rules, places, true);
   share_out(rules, places, false);
+  leave_unseen(rules, places, classes);
 
   if (rules.options.uniform) {
     for (LearnedRule& rule : rules.rules) rule.probability = 1;
@@ -478,6 +532,7 @@ void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classe
     derivations.push_back(std::move(derivation));
   }
   learn_after(rules, derivations);
+  keep_unseen_after(rules);
 }
 
 }  // namespace

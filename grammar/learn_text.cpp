@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "grammar/format.h"
 #include "grammar/learn.h"
 
 namespace gramap {
@@ -32,12 +33,15 @@ std::string spread(double sd_m) {
 
 std::string percent(double share) {
   const double value = 100 * share;
-  return number(value, value < 0.95 ? 2 : value < 9.5 ? 1 : 0) + " %";
+  return number(value, value < 0.095 ? 4 : value < 0.95 ? 2 : value < 9.5 ? 1 : 0) + " %";
 }
 
 std::string counted(double count, const std::string& one, const std::string& many) {
   return number(count, count == std::floor(count) ? 0 : 1) + " " + (count == 1 ? one : many);
 }
+
+/// Rules for rooms never seen that are used more rarely than this are left out.
+constexpr double kLeastProbability = 0.0001;
 
 /// The constants that the widths are written with.
 std::string axes_name(int axes) {
@@ -160,6 +164,9 @@ class Writer {
   }
 
   std::string body(const LearnedRule& rule) const {
+    if (rule.other_width)
+      return "split x { " + width_text(*rule.other_width) + " : " + rules_.types[at(rule.any_type)].name +
+             ", ~ : " + rest_ + " }";
     if (rule.any_type >= 0) return rules_.types[at(rule.any_type)].name + " " + rest_;
     std::string pieces;
     bool plain = true;
@@ -180,7 +187,7 @@ class Writer {
       text_ += first ? "\n// The first room of a space; the number behind // is how often it was seen.\n"
                      : "\n// What follows, from room to room, until the space is full.\n";
       for (const LearnedRule& rule : rules_.rules) {
-        if (rule.first != first || rule.probability <= 0) continue;
+        if (rule.first != first || rule.probability < (rule.any_type < 0 ? 0 : kLeastProbability)) continue;
         const std::string& symbol = first ? start_ : rest_;
         text_ += rule.name + ": " + symbol + (rule.last_only ? " > |" : "") + " -> " + body(rule) + " : " +
                  percent(rule.probability) + ";";
@@ -216,7 +223,8 @@ class Writer {
 }  // namespace
 
 std::string to_text(const LearnedRules& rules) {
-  return Writer(rules).write();
+  const std::string text = Writer(rules).write();
+  return format_rules(text).text.value_or(text);
 }
 
 }  // namespace gramap
