@@ -9,6 +9,7 @@
 #include "floor/known_rows.h"
 #include "geometry/file.h"
 #include "grammar/learn.h"
+#include "grammar/learn_update.h"
 
 namespace gramap {
 namespace {
@@ -18,12 +19,31 @@ struct LearnArguments {
   std::string output = "-";
   double wall_m = 0.2;
   LearnOptions options;
+  std::string update;
+  UpdateOptions updating;
 };
+
+/// Refines a rule file that is there.
+int update(const LearnArguments& arguments, const LearnData& data) {
+  const UpdatedRules updated =
+      update_rules(read_file(arguments.update), arguments.update, data, arguments.updating);
+  write_file(arguments.output, updated.text);
+  for (const std::string& row : updated.unfilled)
+    std::fprintf(stderr, "gramap: warning: the rules cannot make the row of %s; nothing is learned from it\n",
+                 row.c_str());
+  for (const std::string& rule : updated.left_alone)
+    std::fprintf(stderr, "gramap: note: the probability of %s is no plain number and stays as it is\n",
+                 rule.c_str());
+  std::fprintf(stderr, "gramap: wrote %d probabilities anew\n", updated.probabilities);
+  return updated.unfilled.empty() ? kDone : kSetAside;
+}
 
 int learn(const LearnArguments& arguments) {
   KnownFloors known;
   for (const std::string& path : arguments.floors) read_known_floors(path, arguments.wall_m, known);
-  const LearnedRules rules = learn_rules(learn_data(known.floors, known.truths), arguments.options);
+  const LearnData data = learn_data(known.floors, known.truths);
+  if (!arguments.update.empty()) return update(arguments, data);
+  const LearnedRules rules = learn_rules(data, arguments.options);
   write_file(arguments.output, to_text(rules));
   std::size_t rooms = 0;
   for (const KnownRow& row : rules.data.rows) rooms += row.rooms.size();
@@ -45,6 +65,13 @@ Verb declare_learn(CLI::App& gramap) {
   verb->add_option("-o,--output", arguments->output, "The rule file to write; - is standard output")
       ->capture_default_str();
   verb->add_option("--name", arguments->options.name, "Name of the grammar")->capture_default_str();
+  verb->add_option("--update", arguments->update,
+                   "Refine this rule file instead: its probabilities are re-estimated with the floors, "
+                   "everything else in it stays as it is");
+  verb->add_option("--weight", arguments->updating.weight,
+                   "With --update: how many uses of each symbol the file's own probabilities are worth")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb->add_option("--wall", arguments->wall_m,
                    "Thickness in metres of inner walls that a plan draws as lines")
       ->check(CLI::Range(0.01, 1.0))

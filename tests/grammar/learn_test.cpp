@@ -10,6 +10,7 @@
 #include "grammar/language.h"
 #include "grammar/learn_habits.h"
 #include "grammar/learn_sequence.h"
+#include "grammar/learn_update.h"
 #include "grammar/learn_width.h"
 #include "grammar/likelihood.h"
 
@@ -287,4 +288,29 @@ TEST_CASE("door places: what most do is the habit, one that differs widens it") 
   double total = 0;
   for (const auto& place : type.door->places) total += place.share;
   CHECK(total == doctest::Approx(1));
+}
+
+TEST_CASE("an update re-estimates probabilities and leaves every other byte alone") {
+  const std::string before =
+      "grammar hand;\n\nlet axis = 2.5 m;  // mine\nwall inner 0.10 m, outer 0.25 m;\nheight 2.70 m;\n\n"
+      "room Office { width axis - 0.1 m +- 8 cm or 2*axis - 0.1 m +- 8 cm; }\n"
+      "room WC { width 2.40 m +- 8 cm; }\n\nstart Row;\n"
+      "office: Row -> Office Row : 0.50;  // a guess\nwc: Row -> WC Row : 50 %;\n\n"
+      "background 1 % width 1 m .. 9 m;\n";
+  const UpdatedRules updated = update_rules(before, "hand", three_wings(), {.weight = 4});
+  CHECK(updated.probabilities == 2);
+  CHECK(updated.unfilled.empty());
+  // 19 offices and 2 toilets meet two uses of each.
+  const CheckedRules checked = check_rules(updated.text, "hand");
+  REQUIRE(checked.rules);
+  CHECK(checked.rules->rules[0].probability == doctest::Approx(21.0 / 25).epsilon(0.03));
+  CHECK(checked.rules->rules[1].probability == doctest::Approx(4.0 / 25).epsilon(0.1));
+  // Without the two numbers the texts are the same.
+  const auto cut = [](std::string text, const std::string& from) {
+    const std::size_t begin = text.find(from) + from.size();
+    return text.erase(begin, text.find(';', begin) - begin);
+  };
+  CHECK(cut(cut(updated.text, "WC Row : "), "Office Row : ") ==
+        cut(cut(before, "WC Row : "), "Office Row : "));
+  CHECK_THROWS_AS(update_rules("grammar x; room", "broken", three_wings()), InputError);
 }
