@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "app/fit_building.h"
 #include "app/fit_inputs.h"
 #include "app/verbs.h"
 #include "floor/gltf.h"
 #include "floor/model.h"
 #include "floor/room_table.h"
+#include "floor/storeys.h"
 #include "floor/verify.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
@@ -36,6 +38,8 @@ RunInfo run_info(const Options& options, const FittedFloor& fitted) {
 }
 
 int run(const Options& options) {
+  if (!options.inputs.floor.empty() && !floor_folders(options.inputs.floor).empty())
+    return fit_building({options.inputs, options.output, options.strict});
   const FitInputs inputs = read_inputs(options.inputs);
   FittedFloor fitted =
       fit_floor(inputs.floor, inputs.rules, inputs.problems, inputs.observations, options.inputs.fit);
@@ -70,7 +74,9 @@ Verb declare_fit(CLI::App& gramap) {
   auto options = std::make_shared<Options>();
   options->inputs.fit.space.alternatives = 2;  // so that `explain` can name a runner-up
   CLI::App* verb = gramap.add_subcommand(
-      "fit", "Fit a floor: scans, rules and a floor file in, a complete glTF floor out");
+      "fit",
+      "Fit a floor: scans, rules and a floor file in, a complete glTF floor out; a folder of floor folders "
+      "becomes one building");
   declare_inputs(*verb, options->inputs);
   verb->add_option("-o,--output", options->output, "The model to write (.glb); - for standard output")
       ->required();

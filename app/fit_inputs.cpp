@@ -38,8 +38,10 @@ fs::path scans_folder(const FitInputOptions& options) {
 }  // namespace
 
 void declare_inputs(CLI::App& verb, FitInputOptions& options) {
-  auto* floor = verb.add_option("floor", options.floor,
-                                "Floor file (floor.geojson), or a floor folder that may also hold scans/");
+  auto* floor = verb.add_option(
+      "floor", options.floor,
+      "Floor file (floor.geojson), or a floor folder that may also hold scans/; for fit also a "
+      "folder of floor folders");
   verb.add_option("-r,--rules", options.rules, "Rule file")->required();
   verb.add_option(
       "-s,--scans", options.scans,

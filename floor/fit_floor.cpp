@@ -7,12 +7,14 @@
 #include <exception>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "floor/furnish.h"
 #include "floor/fuse.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "grammar/likelihood.h"
 
 namespace gramap {
 namespace {
@@ -63,6 +65,30 @@ std::string unique_id(std::string wanted, std::set<std::string>& taken) {
   return id;
 }
 
+/// Says which scans of a space, whose rooms begin at `first_room`, can't be what their folders' names say:
+/// one room scanned under two names, and one name's scans in two rooms.
+void name_misfiled(FittedFloor& fitted, std::size_t first_room, const SpaceProblem& problem,
+                   const SpaceFit& fit) {
+  std::set<int> reread;  // a scan of two rooms at once lies in both
+  for (const Reinterpreted& note : fit.reinterpreted) reread.insert(note.evidence);
+  std::map<std::string, std::size_t> room_of;
+  for (std::size_t r = 0; r < fit.best.rooms.size(); ++r) {
+    std::set<std::string> names;
+    for (const int evidence : fit.best.rooms[r].evidence)
+      if (!reread.count(evidence)) names.insert(problem.rooms[static_cast<std::size_t>(evidence)].id);
+    for (const std::string& name : names) {
+      if (name != *names.begin())
+        fitted.floor.remarks.push_back(*names.begin() + " and " + name +
+                                       " are scans of one room: one is filed under the wrong name");
+      const auto [first, is_new] = room_of.emplace(name, r);
+      if (!is_new)
+        fitted.floor.remarks.push_back(
+            name + ": its scans are of two rooms, " + fitted.rooms[first_room + first->second].id + " and " +
+            fitted.rooms[first_room + r].id + ": some are filed under the wrong name");
+    }
+  }
+}
+
 void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& problem, const SpaceFit& fit,
                std::set<std::string>& taken) {
   FittedSpace summary;
@@ -80,6 +106,7 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
   }
   fitted.spaces.push_back(summary);
 
+  const std::size_t first_room = fitted.rooms.size();
   int number = 0;
   for (const PlacedRoom& placed : fit.best.rooms) {
     ++number;
@@ -121,6 +148,7 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     room.name = room.id;
     fitted.rooms.push_back(room);
   }
+  name_misfiled(fitted, first_room, problem, fit);
   for (const Reinterpreted& note : fit.reinterpreted)
     fitted.floor.remarks.push_back(problem.rooms[static_cast<std::size_t>(note.evidence)].id + ": " +
                                    note.how);
@@ -201,19 +229,25 @@ void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<Spa
   add_spaces(fitted, problems, fits);
 }
 
-/// ln of the joint probability of all spaces that the hallway shows doors of; minus infinity when one can't
-/// be filled.
+/// ln p(evidence | rules, length) on a coarse grid, which is enough to choose between readings of a hallway;
+/// minus infinity when the space can't be filled.
+double quick_likelihood(const RuleSet& rules, const SpaceProblem& problem, FitOptions options) {
+  constexpr double coarse_m = 0.05;
+  options.grid_m = std::max(options.grid_m, coarse_m);
+  try {
+    return log_likelihood(rules, problem, options);
+  } catch (const InputError&) {
+    return -std::numeric_limits<double>::infinity();
+  }
+}
+
+/// The same of all spaces that the hallway shows doors of.
 double score_of(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                 const std::vector<SpaceProblem>& without, const FitOptions& options) {
   double score = 0;
-  for (std::size_t i = 0; i < problems.size(); ++i) {
-    if (problems[i].doors_visible.size() == without[i].doors_visible.size()) continue;
-    try {
-      score += fit_space(rules, problems[i], options).best.score;
-    } catch (const InputError&) {
-      return -std::numeric_limits<double>::infinity();
-    }
-  }
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    if (problems[i].doors_visible.size() != without[i].doors_visible.size())
+      score += quick_likelihood(rules, problems[i], options);
   return score;
 }
 
@@ -222,8 +256,6 @@ double score_of(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
 void add_doors(const FloorGroundTruth& floor, const RuleSet& rules,
                const std::vector<RoomObservation>& observations, const Placement& placement,
                std::vector<SpaceProblem>& problems, const FloorFitOptions& options) {
-  FitOptions quick = options.space;
-  quick.alternatives = 0;
   for (const PlacedObservation& placed : placement.placed) {
     if (placed.on == PlacedObservation::On::space) continue;
     const RoomObservation& hallway = observations[static_cast<std::size_t>(placed.observation)];
@@ -240,7 +272,7 @@ void add_doors(const FloorGroundTruth& floor, const RuleSet& rules,
     std::size_t best = 0;
     double best_score = -std::numeric_limits<double>::infinity();
     for (std::size_t way = 0; ways.size() > 1 && way < ways.size(); ++way) {
-      const double score = score_of(rules, ways[way], problems, quick);
+      const double score = score_of(rules, ways[way], problems, options.space);
       if (score > best_score) best_score = score, best = way;
     }
     problems = ways[best];
@@ -259,21 +291,20 @@ FitOptions with_doorless_share(const RuleSet& rules, const std::vector<SpaceProb
   const bool any = std::any_of(problems.begin(), problems.end(),
                                [](const SpaceProblem& problem) { return !problem.doors_visible.empty(); });
   if (!any) return options;
-  double scores[std::size(kShares)] = {};
-  tbb::parallel_for(std::size_t{0}, std::size(kShares), [&](std::size_t i) {
+  // Each space by itself, so that the sum does not depend on the threads.
+  constexpr std::size_t shares = std::size(kShares);
+  std::vector<double> likelihoods(shares * problems.size(), 0);
+  tbb::parallel_for(std::size_t{0}, likelihoods.size(), [&](std::size_t i) {
+    const SpaceProblem& problem = problems[i / shares];
     FitOptions tried = options;
-    tried.alternatives = 0;
-    tried.doorless_share = kShares[i].doorless;
-    scores[i] = std::log(kShares[i].prior);
-    for (const SpaceProblem& problem : problems) {
-      if (problem.doors_visible.empty()) continue;
-      try {
-        scores[i] += fit_space(rules, problem, tried).best.score;
-      } catch (const InputError&) {
-        return;  // the fit itself will say so
-      }
-    }
+    tried.doorless_share = kShares[i % shares].doorless;
+    if (!problem.doors_visible.empty()) likelihoods[i] = quick_likelihood(rules, problem, tried);
   });
+  double scores[shares] = {};
+  for (std::size_t i = 0; i < likelihoods.size(); ++i)
+    if (std::isfinite(likelihoods[i]))
+      scores[i % shares] += likelihoods[i];  // else the fit itself will say so
+  for (std::size_t i = 0; i < shares; ++i) scores[i] += std::log(kShares[i].prior);
   options.doorless_share =
       kShares[std::max_element(std::begin(scores), std::end(scores)) - std::begin(scores)].doorless;
   return options;

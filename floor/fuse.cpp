@@ -12,6 +12,9 @@ namespace {
 
 bool agree(const RoomEvidence& a, const RoomEvidence& b) {
   const double sigma = std::hypot(a.width_sigma_m, b.width_sigma_m);
+  if (a.centre_m && b.centre_m &&
+      std::abs(*a.centre_m - *b.centre_m) > 3 * std::hypot(a.centre_sigma_m, b.centre_sigma_m))
+    return false;
   return std::abs(a.width_m - b.width_m) <= std::max(0.02, 3 * sigma);
 }
 

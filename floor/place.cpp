@@ -58,6 +58,14 @@ Extent extent(const Polygon& polygon, const Vec2& direction) {
   return result;
 }
 
+struct Box {
+  Extent x, y;
+  explicit Box(const Polygon& polygon) : x(extent(polygon, {1, 0})), y(extent(polygon, {0, 1})) {}
+  bool meets(const Box& other) const {
+    return x.low <= other.x.high && other.x.low <= x.high && y.low <= other.y.high && other.y.low <= y.high;
+  }
+};
+
 /// What an observation in the building's frame says of the space it lies in. A whole room is turned by up to
 /// a few degrees (drift), so its width is taken along its own axis that runs nearest to the reference line.
 RoomEvidence evidence_in_building(const RoomObservation& room, const Space& space,
@@ -122,6 +130,8 @@ Placement place_observations(const FloorGroundTruth& floor, const std::vector<Ro
                              const PlacementOptions& options) {
   Placement placement;
   const std::vector<Target> all = targets(floor);
+  std::vector<Box> boxes;
+  for (const Target& target : all) boxes.emplace_back(*target.outline);
   for (std::size_t number = 0; number < observations.size(); ++number) {
     const RoomObservation& room = observations[number];
     PlacedObservation placed;
@@ -173,8 +183,11 @@ Placement place_observations(const FloorGroundTruth& floor, const std::vector<Ro
     }
 
     const std::vector<Vec2> inside = samples(room.outline);
+    const Box box(room.outline);
     std::size_t most = 0;
-    for (const Target& target : all) {
+    for (std::size_t t = 0; t < all.size(); ++t) {
+      const Target& target = all[t];
+      if (!box.meets(boxes[t])) continue;
       const auto hits = static_cast<std::size_t>(std::count_if(
           inside.begin(), inside.end(), [&](const Vec2& point) { return contains(*target.outline, point); }));
       if (hits > most) most = hits, placed.on = target.on, placed.index = target.index;
