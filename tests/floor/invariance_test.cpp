@@ -182,18 +182,6 @@ TEST_CASE("a cupboard front read as a wall leaves the floor right and is named")
   CHECK_MESSAGE(named(fitted, "b: "), room_table(fitted));
 }
 
-TEST_CASE("two rooms read as one leave the floor right and are named") {
-  Case made = all_scanned();
-  RoomObservation& seen = made.observations[2];
-  for (Vec2& point : seen.outline)
-    if (point.x() > 10) point.x() += kWall_m + kWidths[3];
-  seen.width.value_m += kWall_m + kWidths[3];
-  made.observations.erase(made.observations.begin() + 3);
-  const FittedFloor fitted = fit(made);
-  check_true(fitted);
-  CHECK_MESSAGE(named(fitted, "c: "), room_table(fitted));
-}
-
 TEST_CASE("a scan filed under another room's name leaves the floor right and is named") {
   SUBCASE("a room's only scans are another room's") {
     Case made = all_scanned();
