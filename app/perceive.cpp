@@ -1,8 +1,11 @@
 // `gramap perceive`: the scans of rooms in, what they say of each room out.
 #include "perception/perceive.h"
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -83,7 +86,10 @@ int run(const Options& options) {
   PerceptionOptions perception = options.perception;
   if (options.verbose)
     perception.on_stage = [](const std::string& stage, double seconds) {
-      std::fprintf(stderr, "  %-12s %8.1f ms\n", stage.c_str(), seconds * 1e3);
+      rusage usage{};
+      getrusage(RUSAGE_SELF, &usage);
+      std::fprintf(stderr, "  %-12s %8.1f ms   peak memory so far %6.0f MB\n", stage.c_str(), seconds * 1e3,
+                   static_cast<double>(usage.ru_maxrss) / 1024);
     };
   std::optional<FloorTruth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth);
@@ -101,8 +107,15 @@ int run(const Options& options) {
           if (many) to /= folder.filename();
           write_debug(to, found);
         };
-      const RoomScans scans = read_room_scans(folder, reading);
-      const Perception found = perceive(registered(scans), scans.room, perception);
+      const auto start = std::chrono::steady_clock::now();
+      RoomScans scans = read_room_scans(folder, reading);
+      RegisteredCloud cloud = registered(scans);
+      const std::string name = scans.room;
+      scans = {};  // the cloud has the points now
+      if (perception.on_stage)
+        perception.on_stage("reading",
+                            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      const Perception found = perceive(std::move(cloud), name, perception);
       const RoomObservation& room = found.observation;
       if (!options.images.empty()) write_wall_images(options.images, found);
       if (truth) perceived.push_back(room);
@@ -164,7 +177,7 @@ Verb declare_perceive(CLI::App& gramap) {
   verb->add_flag("!--no-furniture", options->perception.find_furniture, "Do not look for furniture");
   verb->add_option("--truth", options->truth,
                    "A truth.geojson, or the floor folder with one: print how far each room is from it");
-  verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes");
+  verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes, time and memory");
   return [options] { return run(*options); };
 }
 

@@ -110,8 +110,13 @@ std::vector<Point> read_points(const std::filesystem::path& path) {
   std::filesystem::path name = path;
   if (name.extension() == ".gz") name = name.stem();
   const std::string kind = name.extension().string();
-  if (kind == ".ply") return read_ply(path);
-  if (kind == ".pcd") return read_pcd(path);
+  if (kind == ".ply" || kind == ".pcd") {
+    std::vector<Point> points = kind == ".ply" ? read_ply(path) : read_pcd(path);
+    if (points.empty())
+      throw InputError({path.string()}, "the scan has no points with finite coordinates",
+                       "remove the file, or export the scan again");
+    return points;
+  }
   if (kind == ".gpc") {
     ByteSource source(path);
     std::string bytes;

@@ -31,19 +31,22 @@ class ByteSource {
 /// lines and lines that begin with '#' or "//" are skipped.
 std::vector<Point> read_xyz(const std::filesystem::path& path);
 
-/// The points of a PLY file (ascii, binary of either byte order) and of a PCD file (ascii, binary, compressed). Points that
-/// are not finite are left out: organised clouds mark the places where nothing was measured that way.
+/// The points of a PLY file (ascii, binary of either byte order) and of a PCD file (ascii, binary,
+/// compressed). Points that are not finite are left out: organised clouds mark the places where nothing was
+/// measured that way.
 std::vector<Point> read_ply(const std::filesystem::path& path);
 std::vector<Point> read_pcd(const std::filesystem::path& path);
 
-/// Any of the formats, by the file's name; a further ".gz" is allowed.
+/// Any of the formats, by the file's name; a further ".gz" is allowed. A PLY or PCD file without a finite
+/// point is refused.
 std::vector<Point> read_points(const std::filesystem::path& path);
 
 /// Lines and then bytes of a source: what formats with a text header and a binary body need.
 class LineReader {
  public:
   explicit LineReader(ByteSource& source) : source_(source), buffer_(1 << 16) {}
-  /// The next line without its end; false at the end of the file. Throws InputError for a line of over 64 KiB.
+  /// The next line without its end; false at the end of the file. Throws InputError for a line of over 64
+  /// KiB.
   bool next(std::string& line);
   /// Fills `size` bytes unless the file ends before; how many there were.
   std::size_t bytes(char* to, std::size_t size);

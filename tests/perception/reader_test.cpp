@@ -2,6 +2,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -125,4 +126,21 @@ TEST_CASE("binary clouds that end early say how many points there were") {
     message = error.what();
   }
   CHECK(message == "the file ends after 1 of 2 points");
+}
+
+TEST_CASE("a cloud without one finite point is refused as such") {
+  const File ply(
+      "nan.ply",
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\nnan nan nan\nnan 1 2\n");
+  const File pcd("nan.pcd", pcd_header("binary") + bytes_of({7, NAN, 2, 3, 7, NAN, 5.5, 6}));
+  for (const File* file : {&ply, &pcd}) {
+    std::string message;
+    try {
+      read_points(file->path);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    CHECK(message == "the scan has no points with finite coordinates");
+  }
 }
