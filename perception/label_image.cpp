@@ -196,10 +196,28 @@ void label(WallImage& image, const Splats& splats, const cv::Mat& traced, double
     }
 }
 
+/// Every so-manieth point: of a room's walls more than this shows no more openings.
+constexpr std::size_t kEnoughPoints = 400000;
+
+RegisteredCloud thinned(const RegisteredCloud& cloud) {
+  const std::size_t step = cloud.points_m.size() / kEnoughPoints + 1;
+  RegisteredCloud thin;
+  thin.origin_m = cloud.origin_m;
+  for (RegisteredCloud::Part part : cloud.parts) {
+    const std::size_t begin = thin.points_m.size();
+    for (std::size_t i = part.begin; i < part.end; i += step) thin.points_m.push_back(cloud.points_m[i]);
+    part.begin = begin, part.end = thin.points_m.size();
+    thin.parts.push_back(part);
+  }
+  return thin;
+}
+
 }  // namespace
 
 std::vector<WallImage> label_images(const RegisteredCloud& cloud, const RoomObservation& room,
                                     const LabelOptions& options) {
+  if (cloud.points_m.size() > kEnoughPoints && !cloud.parts.empty())
+    return label_images(thinned(cloud), room, options);
   std::vector<ScannerCoverage> coverages;
   std::size_t points = 0;
   for (const RegisteredCloud::Part& part : cloud.parts) {
