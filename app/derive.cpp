@@ -9,7 +9,9 @@
 #include "app/derive_svg.h"
 #include "app/rules_file.h"
 #include "app/verbs.h"
+#include "floor/complete_floor.h"
 #include "floor/fit_floor.h"
+#include "floor/spaces.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "grammar/derive.h"
@@ -137,7 +139,10 @@ int run(const Options& options) {
   RuleSet rules = file_rules;
   if (!options.floor.empty()) {
     floor = read_floor(options.floor);
+    check_floor(floor, options.floor);
     rules = rules_on_floor(file_rules, floor);
+    for (const std::string& sentence : complete_floor(floor, rules, options.seed))
+      std::fprintf(stderr, "gramap: %s\n", sentence.c_str());
     std::vector<SetAsideInput> set_aside;
     problems = space_problems(floor, rules, {}, {}, set_aside);
   } else {
@@ -193,7 +198,9 @@ Verb declare_derive(CLI::App& gramap) {
   CLI::Option* length =
       verb->add_option("--length", options->length_m, "Clear length of a space to derive, metres");
   length->check(CLI::PositiveNumber);
-  CLI::Option* floor = verb->add_option("--floor", options->floor, "A floor whose spaces to derive");
+  CLI::Option* floor = verb->add_option(
+      "--floor", options->floor,
+      "A floor whose spaces to derive; with an outline alone its hallways grow from the rules");
   floor->excludes(length);
   verb->add_option("--depth", options->depth_m, "Clear depth of the space of --length, metres")
       ->capture_default_str()

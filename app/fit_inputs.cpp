@@ -6,6 +6,7 @@
 
 #include "app/progress.h"
 #include "app/rules_file.h"
+#include "floor/complete_floor.h"
 #include "floor/ground_truth.h"
 #include "floor/scan_folder.h"
 #include "floor/spaces.h"
@@ -75,6 +76,11 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
                   "With --rls: standard deviation of an extracted width, metres")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  verb.add_option(
+          "--hallway-seed", options.hallway_seed,
+          "With a floor that gives neither hallways nor spaces: the same seed grows the same hallways from "
+          "the rules")
+      ->capture_default_str();
   verb.add_flag("-q,--quiet", options.quiet, "No progress");
 }
 
@@ -91,11 +97,9 @@ FitInputs read_inputs(const FitInputOptions& options) {
   }
   inputs.floor = read_floor(options.floor);
   check_floor(inputs.floor, options.floor);
-  if (inputs.floor.spaces.empty()) {
-    const RuleSet rules = rules_on_floor(inputs.rules, inputs.floor);
-    for (const std::string& sentence : derive_spaces(inputs.floor, rules.inner_wall_m, rules.outer_wall_m))
-      if (!options.quiet) std::fprintf(stderr, "gramap: %s\n", sentence.c_str());
-  }
+  const RuleSet here = rules_on_floor(inputs.rules, inputs.floor);
+  for (const std::string& sentence : complete_floor(inputs.floor, here, options.hallway_seed))
+    if (!options.quiet) std::fprintf(stderr, "gramap: %s\n", sentence.c_str());
   const fs::path scans = scans_folder(options);
   if (!scans.empty()) {
     Progress progress("perceiving rooms", options.quiet);
@@ -136,6 +140,7 @@ std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions&
   items.emplace_back("frame", frames[static_cast<int>(options.fit.placement.frame)]);
   items.emplace_back("pose-sigma", number(options.fit.placement.pose_sigma_m));
   items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
+  items.emplace_back("hallway-seed", std::to_string(options.hallway_seed));
   if (!options.rls.empty()) items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));
   return items;
 }

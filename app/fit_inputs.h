@@ -24,6 +24,7 @@ struct FitInputOptions {
   FloorFitOptions fit;
   PerceptionOptions perception;
   RlsOptions rls_options;
+  std::uint64_t hallway_seed = 1;
   bool quiet = false;
 };
 

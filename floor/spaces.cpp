@@ -215,8 +215,10 @@ std::vector<std::string> derive_spaces(FloorGroundTruth& floor, double inner_wal
         {}, "the floor has neither spaces nor an outline to derive them from",
         "draw the spaces beside the hallways, or the outline (the outer face of the outer walls)");
   if (floor.hallways.empty())
-    throw InputError({}, "the floor has neither spaces nor hallways to derive them from",
-                     "draw the hallways, or the spaces with their reference lines");
+    throw InputError(
+        {}, "the floor has neither spaces nor hallways to derive them from",
+        "draw the hallways, or the spaces with their reference lines, or say in the rule file how "
+        "hallways grow: `hallways { … }`");
   std::vector<std::string> said = Deriver(floor, inner_wall_m, outer_wall_m).run();
   if (said.empty())
     throw InputError({}, "beside the hallways nothing is left that could hold rooms",

@@ -154,7 +154,7 @@ void resolve_rules(Resolver& r) {
       rule.symbol = r.symbols.at(source.predecessor.name.text);
     rule.left = resolve_context(r, source.left);
     rule.right = resolve_context(r, source.right);
-    if (source.condition) rule.condition = resolve_condition(r, *source.condition);
+    if (source.condition) rule.condition = resolve_condition(r, *source.condition, ConditionOf::space);
     rule.body = resolve_body(r, source.body);
     if (source.probability) rule.probability = r.quantities.weight(*source.probability).value_or(1);
     r.rules.rules.push_back(std::move(rule));
@@ -242,6 +242,7 @@ CheckedRules check_rules(std::string_view text, const std::string&) {
   resolve_settings(r);
   resolve_rules(r);
   resolve_afters(r);
+  resolve_hallways(r);
   report_unused(r);
   const auto is_error = [](const Diagnostic& d) { return d.severity == Severity::error; };
   if (file.diagnostics.empty() && std::none_of(r.diagnostics.begin(), r.diagnostics.end(), is_error))

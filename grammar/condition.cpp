@@ -24,6 +24,10 @@ Value attribute_value(Condition::Attribute attribute, const SpaceAttributes& spa
       return space.hallway;
     case Condition::Attribute::facade:
       return space.facade ? 1.0 : 0.0;
+    case Condition::Attribute::left:
+      return space.left_m;
+    case Condition::Attribute::right:
+      return space.right_m;
   }
   return 0.0;
 }

@@ -12,6 +12,8 @@ struct SpaceAttributes {
   double depth_m = 0;
   std::string hallway;
   bool facade = true;
+  double left_m = 0;  ///< how far a branch of a hallway could go
+  double right_m = 0;
 };
 
 /// Whether the condition holds where `remaining_m` of clear length are left. Numbers are true when they are

@@ -44,7 +44,7 @@ bool has_space(const std::vector<Token>& tokens, std::size_t i, bool is_rule) {
   if (is(b, ";") || is(b, ",") || is(b, ")") || is(a, "(")) return false;
   if (is_rule && i == 1) return false;  // the colon behind the rule's name
   if (is(a, "{") && is(b, "}")) return false;
-  if (is(a, "~")) return is(b, ":");
+  if (is(a, "~")) return is(b, ":") || (i > 1 && is(tokens[i - 2], "straight"));
   if (is(a, "-") && (i < 2 || !is_operand(tokens[i - 2]))) return false;
   if (is(b, "..")) return !is_number(a);
   if (is(a, "..")) return i < 2 || !is_number(tokens[i - 2]) || is(b, "{");
@@ -166,13 +166,13 @@ class Layout {
     for (std::size_t i = begin; i < end; ++i) {
       if (!is(tokens_[i], "{")) continue;
       blocks.push_back(i);
-      if (has_to_break(i)) breaking.push_back(i);
+      if (is(tokens_[begin], "hallways") || has_to_break(i)) breaking.push_back(i);
       i = closing(i);
     }
     hoist_comments(begin, end, breaking, line);
 
     const bool is_statement = indent == 0;
-    const bool is_rule = is_statement && end > begin + 1 && is(tokens_[begin + 1], ":");
+    const bool is_rule = (is_statement || in_hallways_) && end > begin + 1 && is(tokens_[begin + 1], ":");
     std::vector<Token> flat(tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
                             tokens_.begin() + static_cast<std::ptrdiff_t>(end));
     if (needs_semicolon && !is(flat.back(), ";")) flat.push_back(semicolon());
@@ -253,11 +253,13 @@ class Layout {
       flush();
       last_ = tokens_[i].span.end;
       at_block_start_ = true;
+      const bool outside = std::exchange(in_hallways_, is(tokens_[begin], "hallways"));
       for (std::size_t from = i + 1; from < close;) {
         const std::size_t to = part_end(from, close, has_statements ? ";" : ",");
         item(from, to, indent + kIndent, has_statements);
         from = to;
       }
+      in_hallways_ = outside;
       comments_until(close + 1, indent + kIndent);
       at_block_start_ = false;
       run.push_back(tokens_[close]);
@@ -320,6 +322,7 @@ class Layout {
   std::size_t next_comment_ = 0;
   std::size_t last_ = 0;  ///< end of what was written last, in the source
   bool at_block_start_ = true;
+  bool in_hallways_ = false;  ///< productions are laid out as rules are
   std::vector<Line> lines_;
 };
 

@@ -21,6 +21,7 @@ struct State {
   std::set<std::string> broken;
   Iterator begin;
   bool too_high = false;
+  bool in_straight = false;  ///< a name behind a number is what follows, unless it is a unit
 };
 struct StateTag {};
 
@@ -34,6 +35,11 @@ std::string found(const Token& token) {
   return "`" + token.text + "`";
 }
 
+constexpr const char* kColonOfProduction = "`:` behind a production's name";
+const char* const kStatementAdvice =
+    "a statement begins with `grammar`, `let`, `wall`, `height`, `room`, `start`, `after`, `background`, "
+    "`hallways`, or with a rule's name and `:`";
+
 /// What to write instead, for the mistakes that newcomers make.
 std::string advice(Iterator where, Iterator statement, const std::string& which) {
   const Token& token = *where;
@@ -46,8 +52,7 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
     if (token.text == "->" || token.text == "<")
       return "a rule begins with a name of its own: `" + statement->text + "_row: " + statement->text +
              " -> …`";
-    return "a statement begins with `grammar`, `let`, `wall`, `height`, `room`, `start`, `after`, "
-           "`background`, or with a rule's name and `:`";
+    return kStatementAdvice;
   }
   if (which == "`->`") {
     if (token.text == "=") return "write `->` between what is replaced and what replaces it";
@@ -57,11 +62,22 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
     const bool two_names = statement->text == "grammar" && where == statement + 2 && !token.starts_line &&
                            token.kind == Token::Kind::name;
     if (two_names) return "a name is one word: `" + (where - 1)->text + "_" + token.text + "`";
+    const std::string before = (where - 1)->text;  // a statement is never empty before its `;`
+    if (token.text == "{" && (before == "left" || before == "right"))
+      return "`straight` has a length: `straight 9 m " + before + " { … }`";
+    if (token.kind == Token::Kind::number && nearest(before, {"straight"}) == "straight")
+      return "did you mean `straight`?";
     return "a statement ends with `;`";
   }
-  if (which == "a statement")
-    return "a statement begins with `grammar`, `let`, `wall`, `height`, `room`, `start`, `after`, "
-           "`background`, or with a rule's name and `:`";
+  if (which == "a statement") return kStatementAdvice;
+  if (which == "a statement of the hallways" || which == kColonOfProduction)
+    return "hallways say their `width`, the least `depth` of rooms beside them, an `axiom`, and productions: "
+           "`on: Trunk -> straight 9 m Trunk;`";
+  if (which == "a piece of hallway")
+    return "write `straight` and a length, `left` or `right` and a block, or a symbol";
+  if (which == "`{`" && token.kind == Token::Kind::name &&
+      ((where - 1)->text == "left" || (where - 1)->text == "right"))
+    return "a branch is a block: `" + (where - 1)->text + " { " + token.text + " }`";
   if (which == "`{`" && token.text == "=")
     return "leave out the `=`: `" + statement->text + " " + (where - 1)->text + " { … }`";
   if (which == "a statement of the room" || which == "`}`") {
@@ -94,13 +110,6 @@ void report(State& state, Iterator statement, Iterator where, const std::string&
   } else {
     fault.message = "expected " + which + ", found " + found(*where);
     fault.span = where->span;
-  }
-  if (which == "a statement" && where->text == "hallways") {
-    fault.code = "E0105";
-    fault.message = "this version does not grow hallways from rules";
-    fault.help = "remove the block, and give the hallways in the floor file";
-    state.diagnostics.push_back(std::move(fault));
-    return;
   }
   fault.help = advice(where, statement, which);
   state.diagnostics.push_back(std::move(fault));
@@ -201,8 +210,11 @@ struct Unit : x3::parser<Unit> {
   static constexpr bool has_attribute = true;
 
   template <typename Context, typename RContext, typename Attribute>
-  bool parse(Iterator& first, const Iterator& last, const Context&, RContext&, Attribute& attribute) const {
+  bool parse(Iterator& first, const Iterator& last, const Context& context, RContext&,
+             Attribute& attribute) const {
     if (!is_word(first, last) || first->starts_line || first->text == "x" || is_keyword(first->text))
+      return false;
+    if (x3::get<StateTag>(context).in_straight && first->text != "%" && !is_among(kUnits, first->text))
       return false;
     if (first->kind == Token::Kind::symbol && first->text != "%") return false;
     x3::traits::move_to(Token(*first), attribute);
@@ -235,18 +247,28 @@ struct Semicolon : x3::parser<Semicolon> {
   bool in_block_ = false;
 };
 
+/// What statements stand in.
+enum class Block { none, room, hallways };
+
 /// Reads its subject; on a fault records it and goes on where reading can resume.
 template <typename Subject>
 struct Recovering : x3::unary_parser<Subject, Recovering<Subject>> {
   using attribute_type = x3::unused_type;
   static constexpr bool has_attribute = false;
-  constexpr Recovering(const Subject& statement, bool in_block)
-      : x3::unary_parser<Subject, Recovering<Subject>>(statement), in_block_(in_block) {}
+  constexpr Recovering(const Subject& statement, Block block)
+      : x3::unary_parser<Subject, Recovering<Subject>>(statement),
+        in_block_(block != Block::none),
+        has_productions_(block == Block::hallways) {}
+
+  /// Where the block's `}` must be missing: a production looks like a rule, a keyword's statement does not.
+  bool ends_block(Iterator it, Iterator last) const {
+    return begins_statement(it, last) && !(has_productions_ && !is_keyword(it->text));
+  }
 
   template <typename Context, typename RContext, typename Attribute>
   bool parse(Iterator& first, const Iterator& last, const Context& context, RContext& rcontext,
              Attribute&) const {
-    if (first == last || (in_block_ && (first->text == "}" || begins_statement(first, last)))) return false;
+    if (first == last || (in_block_ && (first->text == "}" || ends_block(first, last)))) return false;
     State& state = x3::get<StateTag>(context);
     const Iterator begin = first;
     Iterator where = first;
@@ -257,6 +279,7 @@ struct Recovering : x3::unary_parser<Subject, Recovering<Subject>> {
       where = failure.where();
       report(state, begin, where, failure.which());
     }
+    state.in_straight = false;
     first = resume(where == begin ? begin + 1 : where, last);
     if (!in_block_ && first != last && first->text == "}") ++first;
     for (Iterator it = begin; it != first; ++it)
@@ -264,11 +287,12 @@ struct Recovering : x3::unary_parser<Subject, Recovering<Subject>> {
     return true;
   }
   bool in_block_;
+  bool has_productions_;
 };
 
 template <typename Subject>
-constexpr Recovering<Subject> recovering(const Subject& subject, bool in_block) {
-  return {subject, in_block};
+constexpr Recovering<Subject> recovering(const Subject& subject, Block block) {
+  return {subject, block};
 }
 
 constexpr Literal word(const char* text) {
@@ -442,7 +466,7 @@ constexpr auto leaf(Expr::Kind kind) {
 const Plain<struct PrimaryId, Expr> primary("a quantity");
 const auto primary_def =
     spanned(number[pass_on] | text_token[leaf(Expr::Kind::text)] | name_token[leaf(Expr::Kind::name)] |
-            OneOf("length depth hallway facade", "an attribute")[leaf(Expr::Kind::name)] |
+            OneOf("length depth hallway facade left right", "an attribute")[leaf(Expr::Kind::name)] |
             (word("(") > condition[pass_on] > word(")")));
 BOOST_SPIRIT_DEFINE(primary)
 const Plain<struct FactorId, Expr> factor("a quantity");
@@ -506,7 +530,7 @@ const auto room_item_def = spanned(
 BOOST_SPIRIT_DEFINE(room_item)
 const Plain<struct RoomId, Room> room("a room");
 const auto room_def = spanned(word("room") > name[put(&Room::name)] > word("{") >
-                              *recovering(room_item[add(&Room::items)], true) > word("}"));
+                              *recovering(room_item[add(&Room::items)], Block::room) > word("}"));
 BOOST_SPIRIT_DEFINE(room)
 
 // ---- rules
@@ -573,6 +597,42 @@ const auto after_def = spanned(word("after") > name[put(&After::rule)] > word("{
                                (after_entry[add(&After::entries)] % word(",")) > word("}"));
 BOOST_SPIRIT_DEFINE(after)
 
+// ---- hallways
+// ----------------------------------------------------------------------------------------------
+
+const Plain<struct HallwayModuleId, HallwayModule> hallway_module("a piece of hallway");
+const auto module_word = [](const char* text) {
+  return OneOf(text, text)[([](auto& c) { x3::_val(c).word = x3::_attr(c).text; })];
+};
+template <bool value>
+constexpr auto in_straight = [](auto& context) { x3::get<StateTag>(context).in_straight = value; };
+const auto hallway_module_def = spanned(
+    (module_word("straight") >
+     (word("~")[set_flag(&HallwayModule::to_end)] |
+      (x3::eps[in_straight<true>] > quantity[put(&HallwayModule::quantity)] > x3::eps[in_straight<false>]))) |
+    (module_word("left right") > word("{") > hallway_module[add(&HallwayModule::branch)] >
+     *hallway_module[add(&HallwayModule::branch)] > word("}")) |
+    name[put(&HallwayModule::name)]);
+BOOST_SPIRIT_DEFINE(hallway_module)
+const auto hallway_word = [](const char* text) { return name_of(text, text)[put(&HallwayItem::word)]; };
+const auto production = name[put(&HallwayItem::name)] >
+                        OneOf(":", kColonOfProduction) > name[put(&HallwayItem::predecessor)] >
+                        -(word(":") > condition[put(&HallwayItem::condition)]) >
+                        word("->") > hallway_module[add(&HallwayItem::body)] >
+                        *hallway_module[add(&HallwayItem::body)] >
+                        -(word(":") > sum[put(&HallwayItem::probability)]);
+const Plain<struct HallwayItemId, HallwayItem> hallway_item("a statement of the hallways");
+const auto hallway_item_def =
+    spanned(((hallway_word("width") > quantity[put(&HallwayItem::quantity)]) |
+             (hallway_word("depth") > quantity[put(&HallwayItem::quantity)]) |
+             (hallway_word("axiom") > name[put(&HallwayItem::name)]) | production) > block_semicolon);
+BOOST_SPIRIT_DEFINE(hallway_item)
+const Plain<struct HallwaysId, Hallways> hallways("hallways");
+const auto hallways_def =
+    spanned(name_of("hallways", "`hallways`")[put(&Hallways::word)] > word("{") >
+            *recovering(hallway_item[add(&Hallways::items)], Block::hallways) > word("}"));
+BOOST_SPIRIT_DEFINE(hallways)
+
 // ---- the file
 // ----------------------------------------------------------------------------------------------
 
@@ -601,8 +661,8 @@ const auto walls = word("wall") > (wall_part[add(&File::settings)] % word(",")) 
 const Plain<struct FileId, File> file("a file");
 const auto file_def =
     *recovering(setting[add(&File::settings)] | walls | let[add(&File::lets)] | room[add(&File::rooms)] |
-                    after[add(&File::afters)] | rule[add(&File::rules)],
-                false);
+                    hallways[add(&File::hallways)] | after[add(&File::afters)] | rule[add(&File::rules)],
+                Block::none);
 BOOST_SPIRIT_DEFINE(file)
 
 }  // namespace gramap::syntax::reader

@@ -41,7 +41,14 @@ std::optional<Value> Quantities::named(const Expr& expr) {
   const auto it = lets_.find(expr.text);
   if (it == lets_.end()) {
     if (file_.broken.contains(expr.text)) return std::nullopt;
-    if (expr.text == "length" || expr.text == "depth" || expr.text == "hallway" || expr.text == "facade") {
+    if (expr.text == "left" || expr.text == "right") {
+      fault("E0304", expr,
+            "`" + expr.text + "` is known only where a hallway grows, so it can stand only in a condition",
+            "write it in a production's condition: `name: Trunk : " + expr.text +
+                " > 9 m -> …;`; a branch to that side is `" + expr.text + " { … }`");
+      return std::nullopt;
+    }
+    if (is_attribute(expr.text)) {
       fault("E0304", expr,
             "`" + expr.text + "` is known only when a space is split, so it can stand only in a condition",
             "write it in a rule's condition: `name: Space : " + expr.text + " … -> …;`");

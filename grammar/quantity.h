@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grammar/rules.h"
@@ -19,6 +20,12 @@ struct Value {
   Kind kind = Kind::plain;
   double number = 0;  ///< metres, or parts of one
 };
+
+/// A word that stands for something of a space or of a hallway's end; known in conditions only.
+inline bool is_attribute(std::string_view word) {
+  return word == "length" || word == "depth" || word == "hallway" || word == "facade" || word == "left" ||
+         word == "right";
+}
 
 class Quantities {
  public:

@@ -41,8 +41,15 @@ void resolve_rooms(Resolver& resolver);
 /// The pieces of a rule's body as one row.
 std::vector<Item> resolve_body(Resolver& resolver, const std::vector<syntax::Term>& body);
 
-/// A rule's condition, its operands' kinds checked.
-Condition resolve_condition(Resolver& resolver, const syntax::Expr& expr);
+/// A condition, its operands' kinds checked.
+enum class ConditionOf { space, hallway };
+Condition resolve_condition(Resolver& resolver, const syntax::Expr& expr, ConditionOf of);
+
+/// The productions of hallways, their symbols resolved; endless ones and unused ones reported.
+void resolve_hallways(Resolver& resolver);
+
+/// False when no values of the attributes are found with which the condition holds.
+bool can_hold(const Condition& condition);
 
 /// Faults of the rules as a whole, once each is well formed: recursion that is no row, splits that never fill
 /// their scope, rules that are never applied.

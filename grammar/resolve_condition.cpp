@@ -16,7 +16,7 @@ std::string type_name(Type type) {
 
 class Builder {
  public:
-  explicit Builder(Resolver& resolver) : r_(resolver) {}
+  Builder(Resolver& resolver, ConditionOf of) : r_(resolver), of_(of) {}
 
   Condition build(const Expr& expr) {
     const Type type = add(expr);
@@ -36,8 +36,7 @@ class Builder {
   }
 
   static bool has_attribute(const Expr& expr) {
-    if (expr.kind == Expr::Kind::name)
-      return expr.text == "length" || expr.text == "depth" || expr.text == "hallway" || expr.text == "facade";
+    if (expr.kind == Expr::Kind::name) return is_attribute(expr.text);
     for (const Expr& child : expr.children)
       if (has_attribute(child)) return true;
     return false;
@@ -68,8 +67,20 @@ class Builder {
     const auto which = expr.text == "length"    ? length
                        : expr.text == "depth"   ? depth
                        : expr.text == "hallway" ? hallway
+                       : expr.text == "left"    ? left
+                       : expr.text == "right"   ? right
                                                 : facade;
     push({Condition::Op::attribute, 0, "", which, -1, -1});
+    const bool of_hallways = which == left || which == right;
+    if (which != length && of_hallways != (of_ == ConditionOf::hallway)) {
+      if (of_hallways)
+        r_.error("E0511", expr.span, "`" + expr.text + "` is known only where a hallway grows",
+                 "a rule for rooms asks for `length`, `depth`, `hallway` or `facade`");
+      else
+        r_.error("E0511", expr.span, "`" + expr.text + "` is not yet known where a hallway grows",
+                 "a production asks for `length`, `left` or `right`: how far the hallway can go there");
+      return Type::fault;
+    }
     return which == hallway ? Type::text : which == facade ? Type::truth : Type::length;
   }
 
@@ -165,13 +176,14 @@ class Builder {
   }
 
   Resolver& r_;
+  ConditionOf of_;
   Condition condition_;
 };
 
 }  // namespace
 
-Condition resolve_condition(Resolver& resolver, const Expr& expr) {
-  return Builder(resolver).build(expr);
+Condition resolve_condition(Resolver& resolver, const Expr& expr, ConditionOf of) {
+  return Builder(resolver, of).build(expr);
 }
 
 }  // namespace gramap

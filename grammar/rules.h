@@ -130,8 +130,11 @@ struct Condition {
     length,
     depth,
     hallway,
-    facade
-  };  ///< remaining clear length, depth (m), hallway id, façade (bool)
+    facade,
+    left,
+    right
+  };  ///< remaining clear length, depth (m), hallway id, façade (bool); in productions of hallways: how far
+      ///< the hallway can go on, and how far a branch to either side could go (m)
   struct Node {
     Op op = Op::number;
     double number = 0;
@@ -169,6 +172,38 @@ struct Background {
   double most_m = 12;
 };
 
+/// One step of a hallway that grows: an L-system's module.
+struct HallwayModule {
+  enum class Kind {
+    straight,  ///< goes on by `length`; `to_end`: as far as it can
+    left,      ///< a branch to the left that begins here and is made of `branch`
+    right,
+    symbol,  ///< replaced by the body of one of its productions
+  };
+  Kind kind = Kind::straight;
+  Normal length;
+  bool to_end = false;
+  int symbol = 0;  ///< into HallwayGrammar::symbols
+  std::vector<HallwayModule> branch;
+};
+
+struct HallwayProduction {
+  std::string name;
+  int symbol = 0;       ///< the predecessor
+  Condition condition;  ///< of `length`, `left` and `right`
+  std::vector<HallwayModule> body;
+  double probability = 1;  ///< a weight among the symbol's productions whose condition holds
+};
+
+/// An L-system that is sensitive to its surroundings (Parish and Müller 2001): how a network of hallways
+/// grows into an outline. What the surroundings do to it is said in floor/grow_hallways.h.
+struct HallwayGrammar {
+  Normal width;                      ///< clear width of a hallway, drawn for each straight run
+  double depth_m = 0;                ///< least clear depth of the rooms beside a hallway
+  std::vector<std::string> symbols;  ///< index 0 is the axiom
+  std::vector<HallwayProduction> productions;
+};
+
 struct RuleSet {
   std::string name;
   double inner_wall_m = 0.1;
@@ -178,6 +213,7 @@ struct RuleSet {
   std::vector<std::string> symbols;  ///< index 0 is the start symbol
   std::vector<Rule> rules;
   Background background;
+  std::optional<HallwayGrammar> hallways;  ///< for floors whose hallways nobody gives
 };
 
 }  // namespace gramap

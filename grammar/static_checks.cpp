@@ -89,41 +89,6 @@ void check_items(Resolver& r, const Item& item, Span span) {
   for (const Item& child : item.children) check_items(r, child, span);
 }
 
-// ---- conditions that never hold
-
-/// Values that an attribute has to be tried with: around every number that the condition can compare with.
-std::vector<double> trials(const Condition& condition) {
-  std::vector<double> numbers;
-  for (const Condition::Node& node : condition.nodes)
-    if (node.op == Condition::Op::number) numbers.push_back(node.number);
-  std::vector<double> thresholds = numbers;
-  for (const double a : numbers) {
-    for (const double b : numbers) {
-      thresholds.insert(thresholds.end(), {a + b, a - b, a * b});
-      if (b != 0) thresholds.push_back(a / b);
-    }
-  }
-  std::vector<double> values{0.01, 1, 3, 10, 30, 100, 1000};
-  for (const double t : thresholds)
-    for (const double value : {t - 1e-6, t, t + 1e-6})
-      if (value > 0) values.push_back(value);
-  return values;
-}
-
-bool can_hold(const Condition& condition) {
-  if (condition.nodes.empty() || condition.nodes.size() > 30) return true;
-  const std::vector<double> lengths = trials(condition);
-  std::vector<std::string> hallways{""};
-  for (const Condition::Node& node : condition.nodes)
-    if (node.op == Condition::Op::text) hallways.push_back(node.text);
-  for (const double length : lengths)
-    for (const double depth : lengths)
-      for (const std::string& hallway : hallways)
-        for (const bool facade : {false, true})
-          if (holds(condition, {depth, hallway, facade}, length)) return true;
-  return false;
-}
-
 // ---- the automaton
 
 /// So that the rest of the rules can be looked at.

@@ -149,12 +149,41 @@ struct After {
   std::vector<Entry> entries;
 };
 
+/// `straight LENGTH`, `left { … }`, `right { … }`, or a symbol.
+struct HallwayModule {
+  Span span;
+  std::string word;  ///< straight, left, right; empty: a symbol
+  Name name;
+  bool to_end = false;
+  std::optional<Quantity> quantity;
+  std::vector<HallwayModule> branch;
+};
+
+/// A statement of the hallways block: `width`, `depth`, `axiom`, or (no word) a production.
+struct HallwayItem {
+  Span span;
+  Name word;
+  Name name;  ///< of the axiom, or of the production
+  std::optional<Quantity> quantity;
+  Name predecessor;
+  std::optional<Expr> condition;
+  std::vector<HallwayModule> body;
+  std::optional<Expr> probability;
+};
+
+struct Hallways {
+  Span span;
+  Name word;
+  std::vector<HallwayItem> items;
+};
+
 struct File {
   std::vector<Setting> settings;
   std::vector<Let> lets;
   std::vector<Room> rooms;
   std::vector<Rule> rules;
   std::vector<After> afters;
+  std::vector<Hallways> hallways;
   std::set<std::string> broken;  ///< names within statements that could not be read
   std::vector<Diagnostic> diagnostics;
 };

@@ -192,7 +192,7 @@ class Lexer {
           printable ? "`" + std::string(bad) + "` is not part of the language"
                     : "a control character is not part of the language",
           help);
-    while (peek(0) == bad[0]) ++at_;
+    while (at_ < text_.size() && text_[at_] == bad[0]) ++at_;
     push(Token::Kind::bad, begin, "");
   }
 

@@ -148,6 +148,7 @@ TEST_CASE("deep nesting and garbage end in diagnostics, quickly") {
   CHECK(!check_rules(brackets, "t").diagnostics.empty());
   std::string signs = "grammar t;\nlet a = " + std::string(100000, '-') + "3 m;\n";
   check_rules(signs, "t");
+  CHECK(check_rules(std::string("grammar t;\0\0", 12), "t").diagnostics.size() > 0);
   std::string sum = "grammar t;\nlet a = 1";
   for (int i = 0; i < 100000; ++i) sum += "+1";
   const auto of_sum = codes(sum + ";\n");

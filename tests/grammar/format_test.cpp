@@ -6,6 +6,7 @@
 #include "grammar/language.h"
 #include "grammar/token.h"
 #include "random_rules.h"
+#include "tests/support/syntax_text.h"
 
 namespace gramap {
 namespace {
@@ -39,6 +40,7 @@ TEST_CASE("formatting twice is formatting once, and what is said stays the same"
     const std::string once = format(text);
     CHECK(format(once) == once);
     CHECK(tokens_of(once) == tokens_of(text));
+    CHECK(test::to_text(syntax::parse(once)) == test::to_text(syntax::parse(text)));
     CHECK(comments_of(once) == comments_of(text));
     const auto before = check_rules(text, "t").diagnostics;
     const auto after = check_rules(once, "t").diagnostics;

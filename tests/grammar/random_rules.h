@@ -18,6 +18,7 @@ class RandomRules {
     say({"let", "axis", "="}), quantity(3), say({";"});
     if (pick(2) == 0) say({"wall", "inner"}), quantity(1), say({",", "outer"}), quantity(1), say({";"});
     for (int i = 0; i < 3; ++i) room(i);
+    if (pick(2) == 0) hallways();
     say({"start", "Space", ";"});
     for (int i = 0, n = 1 + pick(6); i < n; ++i) rule(i);
     if (pick(2) == 0) say({"after", "r0", "{", "r0", "0.5", ",", "others", "50", "%", "}"});
@@ -72,6 +73,38 @@ class RandomRules {
     if (pick(2) == 0) say({";", "furniture", "2", "table", ",", "chair"});
     if (pick(2) == 0) say({";"});
     say({"}"});
+  }
+
+  void hallways() {
+    say({"hallways", "{", "width"}), quantity(1), say({";", "depth", "4.50", "m", ";", "axiom", "H0", ";"});
+    for (int i = 0, n = 1 + pick(3); i < n; ++i) {
+      say({"p" + std::to_string(i), ":", "H" + std::to_string(i)});
+      if (pick(3) == 0) say({":", pick(2) == 0 ? "left" : "length", ">"}), quantity(1);
+      say({"->"});
+      modules(2);
+      if (pick(2) == 0) say({":", "0.40"});
+      if (i + 1 < n || pick(2) == 0) say({";"});
+    }
+    say({"}"});
+  }
+
+  void modules(int depth) {
+    for (int n = 1 + pick(3); n > 0; --n) {
+      switch (pick(depth > 0 ? 4 : 3)) {
+        case 0:
+          say({"straight"}), quantity(1);
+          if (pick(2) == 0) say({"+-", "1", "m"});
+          break;
+        case 1:
+          say({"straight", "~"});
+          break;
+        case 2:
+          say({"H" + std::to_string(pick(3))});
+          break;
+        default:
+          say({pick(2) == 0 ? "left" : "right", "{"}), modules(depth - 1), say({"}"});
+      }
+    }
   }
 
   void rule(int i) {

@@ -19,10 +19,21 @@ class SyntaxText {
       say("after", after.rule.text);
       for (const auto& entry : after.entries) say(entry.rule), say(entry.share);
     }
+    for (const auto& block : file.hallways) text += "hallways\n", all(block.items);
   }
   std::string text;
 
  private:
+  void say(const syntax::HallwayModule& module) {
+    say(("module " + module.word).c_str(), module.name.text);
+    if (module.to_end) text += "to the end\n";
+    maybe(module.quantity), all(module.branch);
+  }
+  void say(const syntax::HallwayItem& item) {
+    say(("hallway item " + item.word.text).c_str(), item.name.text);
+    say(item.predecessor), maybe(item.quantity), maybe(item.condition), all(item.body);
+    maybe(item.probability);
+  }
   void say(const char* what, const std::string& of) { text += std::string(what) + " '" + of + "'\n"; }
   void say(const syntax::Name& name) { say("name", name.text); }
   void say(const syntax::Expr& e) {
