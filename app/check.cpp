@@ -29,10 +29,29 @@ Lengths parse_lengths(const std::string& text) {
   return lengths;
 }
 
+constexpr double kStep_m = 0.1;
+
+/// The lengths that cannot be filled, as faults of the file.
+void add_lengths(const RuleSet& rules, const SpaceProblem& space, const Lengths& lengths,
+                 std::vector<Diagnostic>& diagnostics) {
+  for (const UnfillableRange& range :
+       unfillable_ranges(rules, space, lengths.least_m, lengths.most_m, kStep_m)) {
+    char text[120];
+    std::snprintf(text, sizeof text, "no derivation fills spaces from %.2f m to %.2f m", range.first_m,
+                  range.last_m);
+    diagnostics.push_back({Severity::error,
+                           "E0801",
+                           text,
+                           {0, 0},
+                           {},
+                           {},
+                           "give the rules a room that fits, or a `background`"});
+  }
+}
+
 /// Prints what the rules do with spaces of these lengths; false when some cannot be filled.
 bool report_lengths(const RuleSet& rules, const std::string& path, const SpaceProblem& space,
                     const Lengths& lengths) {
-  constexpr double kStep_m = 0.1;
   const auto ranges = unfillable_ranges(rules, space, lengths.least_m, lengths.most_m, kStep_m);
   for (const UnfillableRange& range : ranges)
     std::printf("%s: no derivation fills spaces from %.2f m to %.2f m\n", path.c_str(), range.first_m,
@@ -79,8 +98,8 @@ Verb declare_check(CLI::App& gramap) {
   auto* lengths = verb->add_option(
       "--lengths", options->lengths,
       "A..B in metres: name the lengths of spaces between them (every 10 cm) that no derivation can fill, "
-      "and "
-      "print how often each rule shows in spaces of lengths A, B and between, beside its number in the file");
+      "and, as text, how often each rule shows in spaces of lengths A, B and between, beside its number in "
+      "the file");
   options->space.depth_m = 5;
   verb->add_option("--depth", options->space.depth_m, "Clear depth of the spaces of --lengths, metres")
       ->check(CLI::PositiveNumber)
@@ -95,9 +114,13 @@ Verb declare_check(CLI::App& gramap) {
     const Lengths range = options->lengths.empty() ? Lengths() : parse_lengths(options->lengths);
     for (const std::string& path : options->paths) {
       const std::string text = read_file(path);
-      const CheckedRules checked = check_rules(text, path);
+      CheckedRules checked = check_rules(text, path);
       sound = sound && checked.rules.has_value();
       if (options->format == "json") {
+        const std::size_t faults = checked.diagnostics.size();
+        if (checked.rules && !options->lengths.empty())
+          add_lengths(*checked.rules, options->space, range, checked.diagnostics);
+        sound = sound && checked.diagnostics.size() == faults;
         std::fputs(to_json(checked.diagnostics, text, path).c_str(), stdout);
         continue;
       }

@@ -166,3 +166,23 @@ TEST_CASE("plan names rooms that nobody scanned") {
   CHECK_MESSAGE(result.code == 0, result.error);
   CHECK(has(result.out, "scan next"));
 }
+
+TEST_CASE("check --lengths names the lengths that nothing fills, as text and as data") {
+  const Project project;
+  const fs::path rules = project.office() / "rigid.grammar";
+  project.write(rules,
+                "grammar rigid;\nwall inner 0.20 m, outer 0.30 m;\nroom Cell { width 2.80 m +- 2 cm; }\n"
+                "start Row;\ncells: Row -> repeat { Cell };\n");
+  const std::string file = " '" + rules.string() + "' ";
+  const auto text = project.run("check" + file + "--lengths 2.8..6.2");
+  CHECK(text.code == 1);
+  CHECK(has(text.out, "no derivation fills spaces from"));
+  CHECK(has(text.out, "cells"));  // the table of frequencies
+  const auto json = project.run("check" + file + "--lengths 2.8..6.2 --diagnostics=json");
+  CHECK(json.code == 1);
+  CHECK(has(json.out, "E0801"));
+  CHECK(has(json.out, "no derivation fills spaces from"));
+  CHECK(project.run("check" + file + "--lengths 2.8..2.8").code == 0);
+  CHECK(project.run("check" + file + "--lengths 2.8..2.8 --diagnostics=json").code == 0);
+  CHECK(project.run("check" + file + "--lengths 9..3").code == 2);
+}
