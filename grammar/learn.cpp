@@ -551,15 +551,12 @@ LearnedRules learn_rules(const LearnData& data, const LearnOptions& options) {
   const std::vector<std::vector<int>> classes = classify(rules);
   generalise_widths(rules);
   learn_rows(rules, classes);
-  // A room that nobody foresaw may take a whole row.
   double least = 1e9, most = 0;
-  for (const KnownRow& row : rules.data.rows) {
-    most = std::max(most, row.length_m);
+  for (const KnownRow& row : rules.data.rows)
     for (const KnownRoom& room : row.rooms)
-      least = std::min(least, room.width_m), most = std::max(most, 1.5 * room.width_m);
-  }
+      least = std::min(least, room.width_m), most = std::max(most, room.width_m);
   rules.least_width_m = std::max(0.5, std::floor(5 * least) / 10);
-  rules.most_width_m = std::ceil(most);
+  rules.most_width_m = std::ceil(1.5 * most);
   return rules;
 }
 
