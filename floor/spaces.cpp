@@ -57,7 +57,14 @@ class Deriver {
     std::vector<Side> sides = hallway_sides();
     std::stable_sort(sides.begin(), sides.end(),
                      [](const Side& a, const Side& b) { return a.length_m() > b.length_m() + 1e-6; });
-    for (const Side& side : sides) fill(side);
+    std::vector<Side> again;
+    for (const Side& side : sides) {
+      left_over_ = false;
+      fill(side);
+      if (left_over_) again.push_back(side);
+    }
+    leaves_deep_ = false;  // what no other side took
+    for (const Side& side : again) fill(side);
     return std::move(said_);
   }
 
@@ -134,12 +141,17 @@ class Deriver {
       std::vector<Piece> run;
       const std::vector<double> cuts = breaks(side.start, along, from, to);
       for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        const Piece piece = measure(side, along, left, cuts[i], cuts[i + 1]);
+        Piece piece = measure(side, along, left, cuts[i], cuts[i + 1]);
         const bool goes_on = !run.empty() && std::abs(run.back().depth_to - piece.depth_from) < 0.02 &&
                              std::abs(slope(run.back()) - slope(piece)) < 0.01;
         if (std::max(piece.depth_from, piece.depth_to) < kLeastDepth_m || !goes_on) {
+          const std::size_t before = floor_.spaces.size();
           add_space(side, along, left, run);
           run.clear();
+          if (floor_.spaces.size() > before) {  // a wall between the two
+            piece.depth_from += slope(piece) * wall_m_;
+            piece.from += wall_m_;
+          }
         }
         if (std::max(piece.depth_from, piece.depth_to) < kLeastDepth_m) continue;
         if (run.empty())
@@ -169,10 +181,27 @@ class Deriver {
     return {from, to, first - rise * inset, last + rise * inset};
   }
 
+  /// A narrow, deep piece at the side of another hallway (the inner corner of an L) is better served from
+  /// there, where it is long and shallow.
+  bool belongs_to_another(const Side& side, const Vec2& along, const Vec2& left, const Piece& piece) const {
+    const double length = piece.to - piece.from, depth = std::min(piece.depth_from, piece.depth_to);
+    if (depth < 2 * length) return false;
+    const Vec2 middle = side.start + along * (piece.from + length / 2) + left * (depth / 2);
+    for (const double sign : {-1.0, 1.0}) {
+      const Hit hit = shoot(middle, sign * along);
+      if (hit.hallway >= 0 && hit.distance_m < length) return true;
+    }
+    return false;
+  }
+
   void add_space(const Side& side, const Vec2& along, const Vec2& left, const std::vector<Piece>& run) {
     if (run.empty()) return;
     const Piece& piece = run.front();
     if (piece.to - piece.from < kLeastLength_m) return;
+    if (leaves_deep_ && belongs_to_another(side, along, left, piece)) {
+      left_over_ = true;
+      return;
+    }
     Space space;
     const Hallway& hallway = floor_.hallways[side.hallway];
     space.hallway = hallway.id;
@@ -205,6 +234,8 @@ class Deriver {
   double wall_m_;
   std::vector<Obstacle> obstacles_;
   std::vector<std::string> said_;
+  bool leaves_deep_ = true;  ///< to other hallways
+  bool left_over_ = false;   ///< the side being filled left a piece
 };
 
 }  // namespace

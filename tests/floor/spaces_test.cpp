@@ -64,6 +64,20 @@ TEST_CASE("a straight hallway from wall to wall has a space on both sides") {
   check_spaces(floor);
 }
 
+TEST_CASE("inside the corner of an L each wing is served from its own hallway") {
+  // Two wings of 12 m breadth; the hallway runs along their middles.
+  const Polygon outline = {{0, 0}, {40, 0}, {40, 40}, {28, 40}, {28, 12}, {0, 12}};
+  const Polygon hallway = {{0.3, 5}, {35, 5}, {35, 39.7}, {33, 39.7}, {33, 7}, {0.3, 7}};
+  FloorGroundTruth floor = floor_with(outline, {hallway});
+  derive_spaces(floor, 0.2, 0.3);
+  check_spaces(floor);
+  for (const Space& space : floor.spaces) {
+    CAPTURE(space.id);
+    const double length = (space.end - space.start).norm();
+    CHECK(signed_area(space.outline) / length < 8);
+  }
+}
+
 TEST_CASE("a dead end: one side takes the corner behind the hallway's end, and it is said") {
   FloorGroundTruth floor = floor_with(rectangle(0, 0, 20, 12), {rectangle(0.3, 5, 14, 7)});
   const auto said = derive_spaces(floor, 0.2, 0.3);
