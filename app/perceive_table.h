@@ -9,9 +9,10 @@
 
 namespace gramap {
 
-/// A room a row: true width, depth and height, the errors and deviations in millimetres, the share of the true walls that a
-/// perceived wall lies within 5 cm of, and walls that lie on no true one. Rooms are matched by name and, when their frame
-/// is their own, laid on their truth by the smallest squared distances of corners. The last row sums up.
+/// A room a row: true width, depth and height, the errors and deviations in millimetres, the share of the
+/// true walls that a perceived wall lies within 5 cm of, and walls that lie on no true one. Rooms are matched
+/// by name and, when their frame is their own, laid on their truth by the smallest squared distances of
+/// corners. The last row sums up.
 std::string accuracy_table(const std::vector<RoomObservation>& rooms, const FloorTruth& truth);
 
 }  // namespace gramap

@@ -54,8 +54,8 @@ struct FittedRoom {
   double type_probability = 1;
   double room_probability = 1;  ///< of a room of this type and, to 10 cm, this width in this place
   std::string rule;
-  std::vector<std::string> rule_path;   ///< the rules from the start symbol down to `rule`
-  std::vector<std::string> scans;  ///< the scan folders it was observed in
+  std::vector<std::string> rule_path;  ///< the rules from the start symbol down to `rule`
+  std::vector<std::string> scans;      ///< the scan folders it was observed in
   std::vector<FittedOpening> openings;
   std::vector<FittedFurniture> furniture;
 };

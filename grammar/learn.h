@@ -112,8 +112,8 @@ struct LearnedRule {
   std::vector<int> classes;  ///< the pieces in order; empty: any room of `any_type`
   int any_type = -1;
   std::optional<WidthClass> other_width;  ///< with `any_type`: in a width that is none of the type's classes
-  int least = 0, most = 0;  ///< > 0: `classes` repeated
-  double count = 0;         ///< uses in the data
+  int least = 0, most = 0;                ///< > 0: `classes` repeated
+  double count = 0;                       ///< uses in the data
   double probability = 0;
   std::vector<std::pair<int, double>> after;  ///< what follows, by rule index; empty: nothing special
 };

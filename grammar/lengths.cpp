@@ -27,7 +27,8 @@ std::vector<UnfillableRange> unfillable_ranges(const RuleSet& rules, const Space
   return ranges;
 }
 
-std::vector<RuleFrequency> rule_frequencies(const RuleSet& rules, const SpaceProblem& space, double length_m) {
+std::vector<RuleFrequency> rule_frequencies(const RuleSet& rules, const SpaceProblem& space,
+                                            double length_m) {
   SpaceProblem of_length = space;
   of_length.length_m = length_m;
   const SpaceDeriver deriver(rules, of_length, kGrid_m);

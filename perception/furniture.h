@@ -22,7 +22,7 @@ struct FurnitureOptions {
   double highest_m = 2.40;    ///< things above hang from the ceiling
   double from_wall_m = 0.07;  ///< points nearer to a wall are the wall's
   double least_area_m2 = 0.05;
-  double most_floor_share = 0.5;  ///< of the room: larger is a floor, not furniture
+  double most_floor_share = 0.5;   ///< of the room: larger is a floor, not furniture
   double least_confidence = 0.35;  ///< share of the forest's votes for any of the three classes
 };
 

@@ -1,4 +1,5 @@
-// measure COMMAND...: runs it with its output thrown away and prints wall seconds, CPU seconds and peak memory in MB.
+// measure COMMAND...: runs it with its output thrown away and prints wall seconds, CPU seconds and peak
+// memory in MB.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -1,4 +1,5 @@
-// A program of somebody else's: fits a floor without scans and writes it, with nothing but the installed package.
+// A program of somebody else's: fits a floor without scans and writes it, with nothing but the installed
+// package.
 #include <cstdio>
 #include <vector>
 
