@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scan_format.h"
 #include "app/verbs.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string folder, output, unit, up = "z";
+  std::string folder, output;
+  ScanFormat format;
   std::vector<double> resolutions_m = {0.02};
   bool table = false;
 };
@@ -125,11 +127,7 @@ void print_rows(const std::vector<Row>& rows, bool table) {
 int run(const Options& options) {
   if (options.output.empty() && !options.table)
     throw CLI::ValidationError("-o", "say where to write: -o FOLDER (or only --table)");
-  ReadOptions reading;
-  if (options.unit == "mm") reading.unit_m = 0.001;
-  if (options.unit == "cm") reading.unit_m = 0.01;
-  if (options.unit == "m") reading.unit_m = 1;
-  reading.up = options.up == "y" ? 'y' : 'z';
+  const ReadOptions reading = read_options(options.format);
   std::vector<Row> rows;
   for (const double resolution : options.resolutions_m) rows.emplace_back().resolution_m = resolution;
   const std::vector<fs::path> folders = room_folders(options.folder);
@@ -137,10 +135,9 @@ int run(const Options& options) {
     const RoomScans scans = read_room_scans(folder, reading);
     const fs::path to =
         folders.size() > 1 ? fs::path(options.output) / folder.filename() : fs::path(options.output);
-    std::error_code error;
-    if (!options.output.empty()) fs::create_directories(to, error);
-    if (error) throw InputError({to.string()}, "the folder cannot be made: " + error.message());
-    if (!options.output.empty() && fs::equivalent(to, folder, error))
+    if (!options.output.empty()) make_folder(to);
+    std::error_code ignored;
+    if (!options.output.empty() && fs::equivalent(to, folder, ignored))
       throw InputError({to.string()}, "the scans themselves are here: every scan would be there twice",
                        "write to another folder");
     RoomObservation before;
@@ -168,12 +165,7 @@ Verb declare_compress(CLI::App& gramap) {
                    "Edge of the voxels in metres; several are compared, the first is written")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--unit", options->unit,
-                   "Length unit of the scans' points; without it metres, and others are refused")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
-  verb->add_option("--up", options->up, "The scans' axis that points up")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->capture_default_str();
+  declare_scan_format(*verb, options->format);
   verb->add_flag("--table", options->table,
                  "Also perceive the rooms before and after, and print what widths change");
   return [options] { return run(*options); };

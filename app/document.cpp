@@ -17,12 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError({folder.string()}, "the folder cannot be made: " + error.message());
-}
-
 void write_pages(const std::vector<VerbRow>& verbs, const fs::path& folder) {
   const std::string version = "gramap " GRAMAP_VERSION;
   for (const char* part : {"man", "completions", "verbs"}) make_folder(folder / part);

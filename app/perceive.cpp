@@ -15,6 +15,7 @@
 
 #include "app/perceive_table.h"
 #include "app/png.h"
+#include "app/scan_format.h"
 #include "app/verbs.h"
 #include "floor/ground_truth.h"
 #include "geometry/error.h"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::vector<std::string> folders;
   std::string output = "-";
-  std::string unit, up = "z";
+  ScanFormat format;
   std::string debug, truth;
   bool verbose = false;
   std::string images;
@@ -78,11 +79,7 @@ void print_fault(const InputError& error) {
 
 int run(const Options& options) {
   const std::vector<fs::path> rooms = rooms_of(options.folders);
-  ReadOptions reading;
-  if (options.unit == "mm") reading.unit_m = 0.001;
-  if (options.unit == "cm") reading.unit_m = 0.01;
-  if (options.unit == "m") reading.unit_m = 1;
-  reading.up = options.up == "y" ? 'y' : 'z';
+  const ReadOptions reading = read_options(options.format);
   PerceptionOptions perception = options.perception;
   if (options.verbose)
     perception.on_stage = [](const std::string& stage, double seconds) {
@@ -120,11 +117,9 @@ int run(const Options& options) {
       if (!options.images.empty()) write_wall_images(options.images, found);
       if (truth) perceived.push_back(room);
       fs::path output = options.output;
-      if (many) {
-        std::error_code error;
-        if (output != "-") fs::create_directories(output, error);
-        if (error) throw InputError({output.string()}, "the folder cannot be made: " + error.message());
-        if (output != "-") output /= room.room + ".json";
+      if (many && output != "-") {
+        make_folder(output);
+        output /= room.room + ".json";
       }
       if (output != "-" || !truth) write_file(output, to_json(room));
       std::fprintf(stderr,
@@ -158,12 +153,7 @@ Verb declare_perceive(CLI::App& gramap) {
           "-o,--output", options->output,
           "The file for one room (- is standard output); for several, the folder for their ROOM.json")
       ->capture_default_str();
-  verb->add_option("--unit", options->unit,
-                   "Length unit of the scans' points; without it metres, and others are refused")
-      ->check(CLI::IsMember({"m", "cm", "mm"}));
-  verb->add_option("--up", options->up, "The scans' axis that points up")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->capture_default_str();
+  declare_scan_format(*verb, options->format);
   verb->add_option("--seed", options->perception.hough.seed, "Seed of the random triples")
       ->capture_default_str();
   verb->add_option(

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "floor/fit_floor.h"
 #include "floor/grow_hallways.h"
 #include "floor/place.h"
 #include "floor/spaces.h"
@@ -14,22 +15,13 @@ namespace {
 
 constexpr double kGrid_m = 0.02;  // fine enough to tell whether anything fits
 
-SpaceProblem bare_problem(const Space& space) {
-  SpaceProblem problem;
-  problem.id = space.id;
-  problem.length_m = clear_length_m(space);
-  problem.depth_m = clear_depth_m(space);
-  problem.hallway = space.hallway;
-  return problem;
-}
-
 }  // namespace
 
 std::vector<std::string> complete_floor(FloorGroundTruth& floor, const RuleSet& rules, std::uint64_t seed) {
   std::vector<std::string> said;
   if (!floor.spaces.empty()) return said;
-  const double inner_m = floor.inner_wall_m.value_or(rules.inner_wall_m);
-  const double outer_m = floor.outer_wall_m.value_or(rules.outer_wall_m);
+  const RuleSet here = rules_on_floor(rules, floor);
+  const double inner_m = here.inner_wall_m, outer_m = here.outer_wall_m;
   if (floor.hallways.empty() && rules.hallways && !floor.outline.empty()) {
     Polygon ring = grow_hallways(floor, *rules.hallways, inner_m, outer_m, seed);
     char text[160];
@@ -40,9 +32,6 @@ std::vector<std::string> complete_floor(FloorGroundTruth& floor, const RuleSet& 
   }
   const std::vector<std::string> derived = derive_spaces(floor, inner_m, outer_m);
   said.insert(said.end(), derived.begin(), derived.end());
-  RuleSet here = rules;
-  here.inner_wall_m = inner_m;
-  here.outer_wall_m = outer_m;
   std::vector<Space> kept;
   for (const Space& space : floor.spaces) {
     const SpaceProblem problem = bare_problem(space);

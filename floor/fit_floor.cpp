@@ -337,14 +337,7 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
   const Placement placement = place_observations(floor, observations, options.placement);
   set_aside.insert(set_aside.end(), placement.set_aside.begin(), placement.set_aside.end());
   std::vector<SpaceProblem> problems;
-  for (const Space& space : floor.spaces) {
-    SpaceProblem problem;
-    problem.id = space.id;
-    problem.length_m = clear_length_m(space);
-    problem.depth_m = clear_depth_m(space);
-    problem.hallway = space.hallway;
-    problems.push_back(problem);
-  }
+  for (const Space& space : floor.spaces) problems.push_back(bare_problem(space));
   for (const PlacedObservation& placed : placement.placed)
     if (placed.on == PlacedObservation::On::space)
       problems[static_cast<std::size_t>(placed.index)].rooms.push_back(placed.evidence);

@@ -126,6 +126,15 @@ double clear_depth_m(const Space& space) {
   return depth;
 }
 
+SpaceProblem bare_problem(const Space& space) {
+  SpaceProblem problem;
+  problem.id = space.id;
+  problem.length_m = clear_length_m(space);
+  problem.depth_m = clear_depth_m(space);
+  problem.hallway = space.hallway;
+  return problem;
+}
+
 Placement place_observations(const FloorGroundTruth& floor, const std::vector<RoomObservation>& observations,
                              const PlacementOptions& options) {
   Placement placement;

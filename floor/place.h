@@ -51,4 +51,7 @@ bool lies_on(const Polygon& outline, const Polygon& target, const PlacementOptio
 double clear_length_m(const Space& space);
 double clear_depth_m(const Space& space);
 
+/// The space as a problem of the fit, before anything was observed in it.
+SpaceProblem bare_problem(const Space& space);
+
 }  // namespace gramap

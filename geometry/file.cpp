@@ -141,6 +141,12 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   if (!file.replace(target)) fail(path, "cannot be written", errno);
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError({folder.string()}, "the folder cannot be made: " + error.message());
+}
+
 void check_file_name(const std::string& name, const std::string& place) {
   const bool odd = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c == '/' || c < 32; });
   if (name.empty() || name == "." || name == ".." || odd)

@@ -15,6 +15,9 @@ std::string read_file(const std::filesystem::path& path);
 /// leaves an existing `path` as it was. The path "-" means standard output.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Makes a folder and those above it, where they are not there. Throws InputError with the system's reason.
+void make_folder(const std::filesystem::path& folder);
+
 /// Throws InputError when `name`, out of an input, cannot be the name of a file in a folder of ours: empty,
 /// "." or "..", with a "/" or a control character. `place` is the input it comes from.
 void check_file_name(const std::string& name, const std::string& place);

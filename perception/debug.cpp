@@ -193,9 +193,7 @@ std::string svg_of(const Perception& found) {
 }  // namespace
 
 void write_debug(const std::filesystem::path& folder, const Perception& perception) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError({folder.string()}, "the folder cannot be made: " + error.message());
+  make_folder(folder);
   write_file(folder / "planes.ply", ply_of(perception));
   write_file(folder / "planes.txt", list_of(perception));
   write_file(folder / "plan.svg", svg_of(perception));
