@@ -124,8 +124,7 @@ Verb declare_check(CLI::App& gramap) {
         std::fputs(to_json(checked.diagnostics, text, path).c_str(), stdout);
         continue;
       }
-      for (const Diagnostic& diagnostic : checked.diagnostics)
-        std::fputs((render(diagnostic, text, path) + "\n").c_str(), stderr);
+      std::fputs(render(checked.diagnostics, text, path).c_str(), stderr);
       if (checked.rules && !options->lengths.empty())
         sound = report_lengths(*checked.rules, path, options->space, range) && sound;
     }

@@ -35,8 +35,7 @@ Verb declare_fmt(CLI::App& gramap) {
       const std::string text =
           from_stdin ? std::string(std::istreambuf_iterator<char>(std::cin), {}) : read_file(path);
       const FormattedRules formatted = format_rules(text);
-      for (const Diagnostic& diagnostic : formatted.diagnostics)
-        std::fputs((render(diagnostic, text, path) + "\n").c_str(), stderr);
+      std::fputs(render(formatted.diagnostics, text, path).c_str(), stderr);
       if (!formatted.text) {
         sound = false;
         continue;

@@ -13,8 +13,7 @@ namespace gramap {
 RuleSet read_rules(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   const CheckedRules checked = check_rules(text, path.string());
-  for (const Diagnostic& diagnostic : checked.diagnostics)
-    std::fputs((render(diagnostic, text, path.string()) + "\n").c_str(), stderr);
+  std::fputs(render(checked.diagnostics, text, path.string()).c_str(), stderr);
   if (checked.rules) return *checked.rules;
   const auto errors = std::count_if(checked.diagnostics.begin(), checked.diagnostics.end(),
                                     [](const Diagnostic& d) { return d.severity == Severity::error; });

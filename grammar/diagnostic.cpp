@@ -16,19 +16,30 @@ bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-Line line_at(std::string_view text, std::size_t position) {
-  position = std::min(position, text.size());
-  Line line;
-  line.number += static_cast<std::size_t>(
-      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
-  if (position > 0) {
-    const std::size_t before = text.rfind('\n', position - 1);
-    line.begin = before == std::string_view::npos ? 0 : before + 1;
+/// Where the lines of a text begin, counted once for all that is said about it.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : text_(text) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '\n') begins_.push_back(i + 1);
   }
-  line.end = std::min(text.find('\n', line.begin), text.size());
-  if (line.end > line.begin && text[line.end - 1] == '\r') --line.end;
-  return line;
-}
+
+  std::string_view text() const { return text_; }
+
+  Line at(std::size_t position) const {
+    const auto after = std::upper_bound(begins_.begin(), begins_.end(), std::min(position, text_.size()));
+    Line line;
+    line.number = static_cast<std::size_t>(after - begins_.begin());
+    line.begin = *std::prev(after);
+    line.end = after == begins_.end() ? text_.size() : *after - 1;
+    if (line.end > line.begin && text_[line.end - 1] == '\r') --line.end;
+    return line;
+  }
+
+ private:
+  std::string_view text_;
+  std::vector<std::size_t> begins_{0};
+};
 
 /// Counted in characters from 1; a tab is one character.
 std::size_t column_at(std::string_view text, const Line& line, std::size_t position) {
@@ -61,9 +72,9 @@ std::string printable(std::string_view text) {
 
 /// The source line and a mark under the span. Tabs are kept in the margin below, so the mark stays in place
 /// at any tab width.
-std::string excerpt(std::string_view text, Span span, char mark, const std::string& label,
-                    std::size_t margin) {
-  const Line line = line_at(text, span.begin);
+std::string excerpt(const Lines& lines, Span span, char mark, const std::string& label, std::size_t margin) {
+  const std::string_view text = lines.text();
+  const Line line = lines.at(span.begin);
   const Line shown = window(text, line, span);
   std::string number = std::to_string(line.number);
   number.insert(0, margin - number.size(), ' ');
@@ -82,33 +93,42 @@ std::string excerpt(std::string_view text, Span span, char mark, const std::stri
   return out + "\n";
 }
 
-}  // namespace
-
-std::string render(const Diagnostic& diagnostic, std::string_view text, const std::string& name) {
-  const Line line = line_at(text, diagnostic.span.begin);
+std::string render(const Diagnostic& diagnostic, const Lines& lines, const std::string& name) {
+  const Line line = lines.at(diagnostic.span.begin);
   std::size_t last_number = line.number;
   for (const auto& label : diagnostic.labels)
-    last_number = std::max(last_number, line_at(text, label.span.begin).number);
+    last_number = std::max(last_number, lines.at(label.span.begin).number);
   const std::size_t margin = std::max<std::size_t>(std::to_string(last_number).size(), 3);
 
   std::string out = name + ":" + std::to_string(line.number) + ":" +
-                    std::to_string(column_at(text, line, diagnostic.span.begin)) + ": " +
+                    std::to_string(column_at(lines.text(), line, diagnostic.span.begin)) + ": " +
                     (diagnostic.severity == Severity::error ? "error" : "warning") + "[" + diagnostic.code +
                     "]: " + diagnostic.message + "\n";
-  out += excerpt(text, diagnostic.span, '^', "", margin);
-  for (const auto& label : diagnostic.labels) out += excerpt(text, label.span, '-', label.text, margin);
+  out += excerpt(lines, diagnostic.span, '^', "", margin);
+  for (const auto& label : diagnostic.labels) out += excerpt(lines, label.span, '-', label.text, margin);
   const std::string indent(margin + 2, ' ');
   for (const std::string& note : diagnostic.notes) out += indent + "= note: " + note + "\n";
   if (!diagnostic.help.empty()) out += indent + "= help: " + diagnostic.help + "\n";
   return out;
 }
 
+}  // namespace
+
+std::string render(const std::vector<Diagnostic>& diagnostics, std::string_view text,
+                   const std::string& name) {
+  const Lines lines(text);
+  std::string out;
+  for (const Diagnostic& diagnostic : diagnostics) out += render(diagnostic, lines, name) + "\n";
+  return out;
+}
+
 std::string to_json(const std::vector<Diagnostic>& diagnostics, std::string_view text,
                     const std::string& name) {
   using Json = nlohmann::ordered_json;
+  const Lines lines(text);
   const auto place = [&](Span span) {
     const auto point = [&](std::size_t position) {
-      const Line line = line_at(text, position);
+      const Line line = lines.at(position);
       return Json{{"byte", position}, {"line", line.number}, {"column", column_at(text, line, position)}};
     };
     return Json{{"start", point(span.begin)}, {"end", point(span.end)}};

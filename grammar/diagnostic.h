@@ -29,8 +29,10 @@ struct Diagnostic {
   std::string help;  ///< what to write instead; may be empty
 };
 
-/// "file:line:column: error[E0101]: message", the source line, a caret under the span, labels, notes, help.
-std::string render(const Diagnostic& diagnostic, std::string_view text, const std::string& name);
+/// "file:line:column: error[E0101]: message", the source line, a caret under the span, labels, notes, help; a
+/// blank line after each.
+std::string render(const std::vector<Diagnostic>& diagnostics, std::string_view text,
+                   const std::string& name);
 
 /// The same as a JSON array of objects.
 std::string to_json(const std::vector<Diagnostic>& diagnostics, std::string_view text,

@@ -44,6 +44,6 @@ int main(int count, char** arguments) {
     const double format_s = seconds([&] { gramap::format_rules(text); });
     std::printf("%8d %10.3f %10.3f %8zu\n", lines, check_s, format_s, checked.diagnostics.size());
     for (std::size_t i = 0; i < std::min<std::size_t>(3, checked.diagnostics.size()); ++i)
-      std::printf("%s\n", gramap::render(checked.diagnostics[i], text, "large").c_str());
+      std::printf("%s\n", gramap::render({checked.diagnostics[i]}, text, "large").c_str());
   }
 }

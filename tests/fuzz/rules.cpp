@@ -32,7 +32,7 @@ void check_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::st
     require(last <= d.span.begin && d.span.begin <= d.span.end && d.span.end <= text.size(),
             "spans in order");
     last = d.span.begin;
-    require(!d.message.empty() && !render(d, text, "fuzz").empty(), "a message");
+    require(!d.message.empty() && !render({d}, text, "fuzz").empty(), "a message");
   }
   to_json(diagnostics, text, "fuzz");
 }

@@ -14,10 +14,7 @@ namespace {
 const std::filesystem::path kFolder = GRAMAP_SOURCE_DIR "/tests/grammar/diagnostics";
 
 std::string report(const std::string& text, const std::string& name) {
-  std::string out;
-  for (const Diagnostic& diagnostic : check_rules(text, name).diagnostics)
-    out += render(diagnostic, text, name) + "\n";
-  return out;
+  return render(check_rules(text, name).diagnostics, text, name);
 }
 
 std::vector<std::string> codes(const std::string& text) {
@@ -30,7 +27,7 @@ std::vector<std::string> codes(const std::string& text) {
 std::string first_line(const std::string& text) {
   for (const Diagnostic& diagnostic : check_rules(text, "t").diagnostics) {
     if (diagnostic.severity != Severity::error) continue;
-    const std::string all = render(diagnostic, text, "t");
+    const std::string all = render({diagnostic}, text, "t");
     return all.substr(0, all.find('\n'));
   }
   return "";
@@ -158,7 +155,7 @@ TEST_CASE("deep nesting and garbage end in diagnostics, quickly") {
   for (int i = 0; i < 5000; ++i) garbage += static_cast<char>((state = state * 1664525 + 1013904223) >> 24);
   const auto diagnostics = check_rules(garbage, "t").diagnostics;
   CHECK(!diagnostics.empty());
-  for (const Diagnostic& d : diagnostics) CHECK(render(d, garbage, "t").size() < 2000);
+  for (const Diagnostic& d : diagnostics) CHECK(render({d}, garbage, "t").size() < 2000);
 }
 
 TEST_CASE("diagnostics are data, too") {

@@ -8,7 +8,7 @@ namespace {
 
 RuleSet read(const std::string& text) {
   const CheckedRules checked = check_rules(text, "t");
-  for (const Diagnostic& d : checked.diagnostics) MESSAGE(render(d, text, "t"));
+  if (!checked.diagnostics.empty()) MESSAGE(render(checked.diagnostics, text, "t"));
   REQUIRE(checked.rules.has_value());
   return *checked.rules;
 }
