@@ -3,7 +3,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 
 FUZZ_SECONDS ?= 60
-.PHONY: fuzz build demo test test-release test-sanitized test-sanitized-all test-campus bench tidy coverage packages deb docs format format-check clean
+.PHONY: build demo test test-release test-sanitized test-sanitized-all fuzz test-campus bench tidy coverage packages deb docs format format-check clean
 
 build: packages
 	cmake --preset $(PRESET)
@@ -32,12 +32,12 @@ test-sanitized-all:
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	ctest --preset asan-ubsan
 
-# Every fuzzer for so long, two at a time; what they find lies in build/fuzz/fuzz/NAME/.
+# Every fuzzer for FUZZ_SECONDS, two at a time, and a row for each; what they find lies in build/fuzz/fuzz/NAME/.
 fuzz: packages
 	scripts/install-packages packages-fuzz.txt
 	cmake --preset fuzz -DGRAMAP_FUZZ_SECONDS=$(FUZZ_SECONDS)
 	cmake --build --preset fuzz -j $(JOBS) --target fuzzers
-	ctest --preset fuzz
+	ctest --preset fuzz && tests/fuzz/report build/fuzz
 
 # examples/campus under Snakemake: killed half-way and resumed, it must give the bytes of an uninterrupted run.
 test-campus: build
