@@ -316,8 +316,9 @@ std::vector<HeldOutLikelihood> held_out_likelihoods(
     }
     for (const auto& [name, rules] : candidates) {
       std::vector<double> logs(problems.size());
-      tbb::parallel_for(std::size_t{0}, problems.size(),
-                        [&](std::size_t i) { logs[i] = likelihood_or_none(rules, problems[i], options); });
+      tbb::parallel_for(std::size_t{0}, problems.size(), [&, &rules = rules](std::size_t i) {
+        logs[i] = likelihood_or_none(rules, problems[i], options);
+      });
       double sum = 0;
       for (const double value : logs) sum += value;
       result.push_back({floor, name, sum / std::max(1.0, rooms)});
