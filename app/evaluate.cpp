@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/progress.h"
 #include "app/read_known_floors.h"
 #include "app/rules_file.h"
 #include "app/verbs.h"
@@ -64,15 +65,23 @@ int cross(const EvaluateArguments& arguments) {
   const KnownFloors known = floors_in(arguments.cross, arguments.wall_m);
   const LearnData data = learn_data(known.floors, known.truths);
   std::printf(
-      "leave one floor out: %zu floors, %d draws, scanned widths %.0f %% and positions %.2f m off%s\n",
+      "leave one floor out: %zu floors, %d draws, scanned widths %.0f %% and positions %.2f m off%s; %s\n",
       known.floors.size(), arguments.crossing.draws, 100 * arguments.crossing.width_error,
-      arguments.crossing.place_sigma_m, arguments.crossing.doors ? ", doors seen from the hallways" : "");
+      arguments.crossing.place_sigma_m, arguments.crossing.doors ? ", doors seen from the hallways" : "",
+      arguments.crossing.least_error ? "layouts of least expected error" : "most probable layouts");
   std::printf("%8s  %-15s %9s %13s %22s %12s %7s\n", "scanned", "rules", "present", "counts right",
               "unscanned: mean error", "<= 10 cm", "failed");
-  for (const CrossScore& score : cross_validate(data, arguments.learning, make_rules, arguments.crossing))
+  std::fflush(stdout);
+  Progress progress("evaluating");
+  CrossListener listener;
+  listener.step = [&](const std::string& what, std::size_t total) { progress.step(what, total); };
+  listener.score = [](const CrossScore& score) {
     std::printf("%7.0f%%  %-15s %8.1f%% %12.1f%% %20.3f m %11.1f%% %7d\n", 100 * score.share,
                 to_string(score.method), 100 * score.present, 100 * score.spaces_right,
                 score.unscanned_error_m, 100 * score.unscanned_within_10cm, score.failed);
+    std::fflush(stdout);
+  };
+  cross_validate(data, arguments.learning, make_rules, arguments.crossing, listener);
   std::vector<std::pair<std::string, RuleSet>> others;
   for (const std::string& path : arguments.rules) others.emplace_back(path, read_rules(path));
   std::printf("\nlog likelihood of the floor left out, nats per room\n");
@@ -142,6 +151,9 @@ Verb declare_evaluate(CLI::App& gramap) {
       ->check(CLI::Range(0.005, 0.5))
       ->capture_default_str();
   verb->add_flag("--doors", arguments->crossing.doors, "With --cross: the hallways' doors are seen, too");
+  verb->add_flag("!--most-probable", arguments->crossing.least_error,
+                 "With --cross: judge the most probable layout instead of the one whose widths are expected "
+                 "to be least wrong");
   verb->add_option("--wall", arguments->wall_m,
                    "Thickness in metres of inner walls that a plan draws as lines")
       ->check(CLI::Range(0.01, 1.0))

@@ -65,6 +65,9 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
                   "Prior share of scanned rooms whose width is wrong")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 0.9));
+  verb.add_flag("--least-error", options.fit.space.least_error,
+                "Instead of the most probable layout take the one whose room widths are expected to be least "
+                "wrong: better where most rooms are not scanned and the rules leave much open");
   auto* rls =
       verb.add_option("--rls", options.rls, "Instead of a floor and scans: reference line segments (CSV)")
           ->excludes(floor);
@@ -140,6 +143,7 @@ std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions&
   items.emplace_back("frame", frames[static_cast<int>(options.fit.placement.frame)]);
   items.emplace_back("pose-sigma", number(options.fit.placement.pose_sigma_m));
   items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
+  items.emplace_back("least-error", options.fit.space.least_error ? "true" : "false");
   items.emplace_back("hallway-seed", std::to_string(options.hallway_seed));
   if (!options.rls.empty()) items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));
   return items;

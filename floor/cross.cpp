@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <mutex>
 #include <numbers>
 #include <random>
 
@@ -99,9 +99,11 @@ std::vector<Interval> divide_equally(const SpaceProblem& problem, double wall_m,
   return rooms;
 }
 
-std::vector<Interval> fit_rooms(const RuleSet& rules, const SpaceProblem& problem, double grid_m) {
+std::vector<Interval> fit_rooms(const RuleSet& rules, const SpaceProblem& problem,
+                                const CrossOptions& crossing) {
   FitOptions options;
-  options.grid_m = grid_m;
+  options.grid_m = crossing.grid_m;
+  options.least_error = crossing.least_error;
   try {
     std::vector<Interval> rooms;
     for (const PlacedRoom& room : fit_space(rules, problem, options).best.rooms)
@@ -172,41 +174,39 @@ struct Job {
   SpaceProblem problem;
   std::vector<Interval> truth;
   std::vector<bool> scanned;
-  std::size_t share = 0;
   Sums sums[3];
 };
 
-/// All draws of one floor, made one after the other so that they do not depend on the threads.
+/// All draws of one floor at one of the shares, made one after the other so that they do not depend on the
+/// threads.
 std::vector<Job> draw_jobs(const std::vector<const KnownRow*>& rows, double wall_m,
-                           const CrossOptions& options, std::uint64_t seed) {
+                           const CrossOptions& options, std::size_t s, std::uint64_t seed) {
   std::vector<Job> jobs;
   std::size_t total = 0;
   for (const KnownRow* row : rows) total += row->rooms.size();
-  for (std::size_t s = 0; s < options.shares.size(); ++s) {
-    for (int draw = 0; draw < options.draws; ++draw) {
-      std::mt19937_64 generator(seed + 1000003 * (s + 1) + static_cast<std::uint64_t>(draw));
-      const std::size_t count =
-          static_cast<std::size_t>(std::lround(options.shares[s] * static_cast<double>(total)));
-      const std::vector<bool> chosen = choose(total, count, generator);
-      std::size_t next = 0;
-      for (const KnownRow* row : rows) {
-        Job job{row, bare_problem(*row), true_rooms(*row, wall_m), {}, s, {}};
-        for (std::size_t i = 0; i < row->rooms.size(); ++i) {
-          job.scanned.push_back(chosen[next++]);
-          if (!job.scanned.back()) continue;
-          const double sigma = options.width_error * job.truth[i].width_m();
-          RoomEvidence evidence;
-          evidence.id = row->rooms[i].id;
-          evidence.width_m = std::max(0.3, job.truth[i].width_m() + sigma * normal(generator));
-          evidence.width_sigma_m = sigma;
-          evidence.centre_m =
-              (job.truth[i].start_m + job.truth[i].end_m) / 2 + options.place_sigma_m * normal(generator);
-          evidence.centre_sigma_m = options.place_sigma_m;
-          job.problem.rooms.push_back(evidence);
-        }
-        if (options.doors) add_doors(*row, job.truth, generator, job.problem);
-        jobs.push_back(std::move(job));
+  for (int draw = 0; draw < options.draws; ++draw) {
+    std::mt19937_64 generator(seed + 1000003 * (s + 1) + static_cast<std::uint64_t>(draw));
+    const std::size_t count =
+        static_cast<std::size_t>(std::lround(options.shares[s] * static_cast<double>(total)));
+    const std::vector<bool> chosen = choose(total, count, generator);
+    std::size_t next = 0;
+    for (const KnownRow* row : rows) {
+      Job job{row, bare_problem(*row), true_rooms(*row, wall_m), {}, {}};
+      for (std::size_t i = 0; i < row->rooms.size(); ++i) {
+        job.scanned.push_back(chosen[next++]);
+        if (!job.scanned.back()) continue;
+        const double sigma = options.width_error * job.truth[i].width_m();
+        RoomEvidence evidence;
+        evidence.id = row->rooms[i].id;
+        evidence.width_m = std::max(0.3, job.truth[i].width_m() + sigma * normal(generator));
+        evidence.width_sigma_m = sigma;
+        evidence.centre_m =
+            (job.truth[i].start_m + job.truth[i].end_m) / 2 + options.place_sigma_m * normal(generator);
+        evidence.centre_sigma_m = options.place_sigma_m;
+        job.problem.rooms.push_back(evidence);
       }
+      if (options.doors) add_doors(*row, job.truth, generator, job.problem);
+      jobs.push_back(std::move(job));
     }
   }
   return jobs;
@@ -219,6 +219,46 @@ double likelihood_or_none(const RuleSet& rules, const SpaceProblem& problem, con
   } catch (const InputError&) {
     return -std::numeric_limits<double>::infinity();
   }
+}
+
+/// One floor, and what the others teach.
+struct LeftOut {
+  std::string name;
+  std::vector<const KnownRow*> rows;
+  RuleSet learned, uniform;
+  double usual_width_m = 0;
+};
+
+std::vector<LeftOut> leave_out_each(const LearnData& data, const LearnOptions& learning,
+                                    const RuleMaker& make) {
+  LearnOptions uniform = learning;
+  uniform.uniform = true;
+  std::vector<LeftOut> floors;
+  for (const std::string& name : floors_of(data)) {
+    const LearnData rest = without(data, name);
+    LeftOut floor{name, {}, make(learn_rules(rest, learning)), make(learn_rules(rest, uniform)), 0};
+    double sum = 0, count = 0;
+    for (const KnownRow& row : rest.rows)
+      for (const KnownRoom& room : row.rooms) sum += room.width_m, count += 1;
+    floor.usual_width_m = sum / count;
+    for (const KnownRow& row : data.rows)
+      if (row.floor == name && row.whole) floor.rows.push_back(&row);
+    floors.push_back(std::move(floor));
+  }
+  return floors;
+}
+
+CrossScore score_of(const Sums& sum, CrossMethod method, double share) {
+  CrossScore score;
+  score.method = method;
+  score.share = share;
+  score.present = sum.present / std::max(1.0, sum.rooms);
+  score.spaces_right = sum.spaces_right / std::max(1.0, sum.spaces);
+  score.unscanned_error_m = sum.error / std::max(1.0, sum.unscanned);
+  score.unscanned_within_10cm = sum.within / std::max(1.0, sum.unscanned);
+  score.unscanned = static_cast<int>(sum.unscanned);
+  score.failed = static_cast<int>(sum.failed);
+  return score;
 }
 
 }  // namespace
@@ -236,46 +276,34 @@ const char* to_string(CrossMethod method) {
 }
 
 std::vector<CrossScore> cross_validate(const LearnData& data, const LearnOptions& learning,
-                                       const RuleMaker& make, const CrossOptions& options) {
-  std::vector<std::vector<Sums>> sums(3, std::vector<Sums>(options.shares.size()));
-  std::uint64_t floor_number = 0;
-  for (const std::string& floor : floors_of(data)) {
-    const LearnData rest = without(data, floor);
-    LearnOptions uniform = learning;
-    uniform.uniform = true;
-    const RuleSet learned_rules = make(learn_rules(rest, learning));
-    const RuleSet uniform_rules = make(learn_rules(rest, uniform));
-    double usual = 0, count = 0;
-    for (const KnownRow& row : rest.rows)
-      for (const KnownRoom& room : row.rooms) usual += room.width_m, count += 1;
-    std::vector<const KnownRow*> rows;
-    for (const KnownRow& row : data.rows)
-      if (row.floor == floor && row.whole) rows.push_back(&row);
-    std::vector<Job> jobs = draw_jobs(rows, data.inner_wall_m, options, options.seed + 7919 * floor_number++);
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-      Job& job = jobs[i];
-      job.sums[0] = compare(job.truth, fit_rooms(learned_rules, job.problem, options.grid_m), job.scanned);
-      job.sums[1] = compare(job.truth, fit_rooms(uniform_rules, job.problem, options.grid_m), job.scanned);
-      job.sums[2] =
-          compare(job.truth, divide_equally(job.problem, data.inner_wall_m, usual / count), job.scanned);
-    });
-    for (const Job& job : jobs)
-      for (std::size_t m = 0; m < 3; ++m) sums[m][job.share] += job.sums[m];
-  }
+                                       const RuleMaker& make, const CrossOptions& options,
+                                       const CrossListener& listener) {
+  const std::vector<LeftOut> floors = leave_out_each(data, learning, make);
+  std::mutex reporting;
   std::vector<CrossScore> scores;
   for (std::size_t s = 0; s < options.shares.size(); ++s) {
+    Sums sums[3];
+    for (std::size_t f = 0; f < floors.size(); ++f) {
+      const LeftOut& floor = floors[f];
+      std::vector<Job> jobs = draw_jobs(floor.rows, data.inner_wall_m, options, s, options.seed + 7919 * f);
+      tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+        Job& job = jobs[i];
+        job.sums[0] = compare(job.truth, fit_rooms(floor.learned, job.problem, options), job.scanned);
+        job.sums[1] = compare(job.truth, fit_rooms(floor.uniform, job.problem, options), job.scanned);
+        job.sums[2] = compare(job.truth, divide_equally(job.problem, data.inner_wall_m, floor.usual_width_m),
+                              job.scanned);
+        if (!listener.step) return;
+        const std::lock_guard<std::mutex> lock(reporting);
+        listener.step(floor.name + ", " + std::to_string(std::lround(100 * options.shares[s])) +
+                          " % scanned: " + job.row->space,
+                      floors.size() * options.shares.size() * jobs.size());
+      });
+      for (const Job& job : jobs)
+        for (std::size_t m = 0; m < 3; ++m) sums[m] += job.sums[m];
+    }
     for (std::size_t m = 0; m < 3; ++m) {
-      const Sums& sum = sums[m][s];
-      CrossScore score;
-      score.method = static_cast<CrossMethod>(m);
-      score.share = options.shares[s];
-      score.present = sum.present / std::max(1.0, sum.rooms);
-      score.spaces_right = sum.spaces_right / std::max(1.0, sum.spaces);
-      score.unscanned_error_m = sum.error / std::max(1.0, sum.unscanned);
-      score.unscanned_within_10cm = sum.within / std::max(1.0, sum.unscanned);
-      score.unscanned = static_cast<int>(sum.unscanned);
-      score.failed = static_cast<int>(sum.failed);
-      scores.push_back(score);
+      scores.push_back(score_of(sums[m], static_cast<CrossMethod>(m), options.shares[s]));
+      if (listener.score) listener.score(scores.back());
     }
   }
   return scores;

@@ -4,7 +4,8 @@
 // Scans are simulated as widths: the true width with a relative error, and a position as a pin or a pose
 // would give it. Three methods are compared: learned rules; the same rules with all probabilities made alike;
 // and no rules at all, the stretches between scanned rooms divided into equal rooms of about the scanned
-// rooms' width.
+// rooms' width. All three are told the same: the space's length, the scanned rooms' widths and places; none
+// knows how many rooms there are.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,8 @@ struct CrossOptions {
   std::uint64_t seed = 1;
   double width_error = 0.03;   ///< standard deviation of a scanned width, relative
   double place_sigma_m = 0.3;  ///< standard deviation of a scanned room's position
-  double grid_m = 0.01;        ///< step of the fit's positions: plans drawn to 0.2 m need no centimetres
+  double grid_m = 0.05;        ///< step of the fit's positions: plans drawn to 0.2 m need no centimetres
+  bool least_error = true;     ///< FitOptions::least_error: the score is the error of widths; else the mode
   bool doors = false;          ///< hallways are scanned too: every door of the plan is seen, to 5 cm
 };
 
@@ -50,10 +52,18 @@ struct HeldOutLikelihood {
 /// Turns learned rules into a rule set (the text is parsed again, as a user would).
 using RuleMaker = std::function<RuleSet(const LearnedRules&)>;
 
+/// Called after each space of each draw, from one thread at a time, and with the scores of a share when it is
+/// done.
+struct CrossListener {
+  std::function<void(const std::string& what, std::size_t total)> step;
+  std::function<void(const CrossScore&)> score;
+};
+
 /// Scores averaged over floors, spaces and draws; learned from `data` less the floor itself. Rows belong to a
 /// floor by KnownRow::floor. The same seed gives the same numbers.
 std::vector<CrossScore> cross_validate(const LearnData& data, const LearnOptions& learning,
-                                       const RuleMaker& make, const CrossOptions& options);
+                                       const RuleMaker& make, const CrossOptions& options,
+                                       const CrossListener& listener = {});
 
 /// ln p(all rooms of a floor | rules) per room, widths and positions known to 5 cm, for rules learned on the
 /// other floors, the same made uniform, and the `others` by name.

@@ -10,6 +10,7 @@
 #include "grammar/fillable.h"
 #include "grammar/inference.h"
 #include "grammar/lattice.h"
+#include "grammar/least_error.h"
 #include "grammar/placed_rooms.h"
 #include "grammar/sequence.h"
 #include "grammar/space.h"
@@ -96,6 +97,49 @@ void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
                                     (problem.rooms[i].centre_m ? " at its place" : " in its order")});
 }
 
+/// Layouts drawn to judge the expected error by.
+constexpr int kLeastErrorDraws = 100;
+
+using Sequences = std::vector<std::shared_ptr<const Prefix>>;
+
+std::vector<double> mean_starts(const SequencePosterior& posterior) {
+  std::vector<double> starts;
+  for (const SequencePosterior::Place& place : posterior.places) starts.push_back(place.start_mean_m);
+  return starts;
+}
+
+std::vector<int> looks_along(const Prefix& whole) {
+  std::vector<int> looks;
+  for (const Prefix* prefix = &whole; prefix->before != nullptr; prefix = prefix->before.get())
+    looks.push_back(prefix->look);
+  std::reverse(looks.begin(), looks.end());
+  return looks;
+}
+
+/// The sequence of least expected error, in front of the others: that of the layout drawn which is nearest to
+/// all drawn, unless the most probable one does as well.
+void put_least_error_first(const Lattice& lattice, const NodeTable& before, const NodeTable& behind,
+                           const std::vector<double>& posteriors, double length_m, Sequences& sequences) {
+  const std::vector<DrawnLayout> drawn = draw_layouts(lattice, behind, kLeastErrorDraws, 1);
+  std::vector<Stretches> rooms;
+  for (const DrawnLayout& layout : drawn) rooms.push_back(layout.rooms);
+  const std::vector<int> looks = looks_of(lattice.row());
+  std::vector<int> nearest;
+  for (const int element : drawn[least_error(rooms, drawn)].elements)
+    nearest.push_back(looks[static_cast<std::size_t>(element)]);
+  const auto sequence = sequence_of(lattice, before, behind, posteriors, nearest);
+  if (sequence == nullptr) return;
+  std::vector<Stretches> candidates;
+  for (const auto& candidate : {sequences.front(), sequence}) {
+    const SequencePosterior posterior = sequence_posterior(lattice, *candidate);
+    candidates.push_back(stretches_of(lattice, posterior.best, mean_starts(posterior), length_m));
+  }
+  if (least_error(candidates, drawn) == 0) return;
+  const auto same = [&](const auto& other) { return looks_along(*other) == nearest; };
+  std::erase_if(sequences, same);
+  sequences.insert(sequences.begin(), sequence);
+}
+
 }  // namespace
 
 SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
@@ -111,8 +155,12 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
   if (!std::isfinite(total)) refuse_unfillable(rules, problem, options);
   const NodeTable behind = backward(lattice, before);
   const std::vector<double> posteriors = node_posteriors(lattice, before, behind);
-  const auto sequences = most_probable_sequences(lattice, before, behind, posteriors,
-                                                 {std::max(0, options.alternatives) + 1, options.beam});
+  const int reported = std::max(0, options.alternatives) + 1;
+  Sequences sequences =
+      most_probable_sequences(lattice, before, behind, posteriors, {reported, options.beam});
+  if (options.least_error)
+    put_least_error_first(lattice, before, behind, posteriors, problem.length_m, sequences);
+  sequences.resize(std::min(sequences.size(), static_cast<std::size_t>(reported)));
   std::vector<SequencePosterior> found;
   for (const auto& sequence : sequences) found.push_back(sequence_posterior(lattice, *sequence));
   std::vector<SameRoom> same = rooms_of(lattice, found.front().best);
@@ -120,7 +168,8 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
   SpaceFit fit;
   for (std::size_t s = 0; s < sequences.size(); ++s) {
     const auto explained = explain(lattice, found[s].best);
-    const std::vector<double> starts = refine(lattice, found[s].best, explained);
+    const std::vector<double> starts =
+        options.least_error ? mean_starts(found[s]) : refine(lattice, found[s].best, explained);
     Layout layout;
     layout.rooms = place_rooms(rules, lattice, found[s], starts, explained, problem.length_m);
     layout.score = sequences[s]->log_weight;

@@ -130,6 +130,7 @@ class Sequence {
     const double most = *std::max_element(completions.begin(), completions.end());
     for (double& value : completions) value /= most;
     SequencePosterior::Place& place = posterior.places[i];
+    place.start_mean_m = start_cell * grid.step_m + m.x / m.weight;
     place.start_sd_m = i == 0 ? 0 : deviation(m.weight, m.x, m.xx);
     place.width_sd_m = deviation(m.weight, m.w, m.ww);
     place.covariance_m2 = m.xw / m.weight - m.x / m.weight * m.w / m.weight;

@@ -7,12 +7,13 @@
 
 namespace gramap {
 
-/// Derivations, associations and widths may differ from layout to layout; the standard deviations are those
-/// of the marginals over all layouts of the sequence, each with its posterior probability.
+/// Derivations, associations and widths may differ from layout to layout; means and standard deviations are
+/// those of the marginals over all layouts of the sequence, each with its posterior probability.
 struct SequencePosterior {
   std::vector<PathStep> best;  ///< the layout with the largest weight
   double log_best = 0;         ///< ln of that weight
   struct Place {
+    double start_mean_m = 0;
     double start_sd_m = 0;
     double end_sd_m = 0;
     double width_sd_m = 0;

@@ -42,6 +42,17 @@ class Search {
     return std::move(found_);
   }
 
+  PrefixPtr follow(const std::vector<int>& looks) {
+    PrefixPtr prefix = empty_prefix();
+    for (std::size_t i = 0; i < looks.size() && prefix != nullptr; ++i) {
+      found_.clear();
+      std::vector<PrefixPtr> longer = children(prefix, looks[i]);
+      if (i + 1 == looks.size()) return found_.empty() ? nullptr : found_.front();
+      prefix = longer.empty() ? nullptr : longer.front();
+    }
+    return nullptr;
+  }
+
  private:
   PrefixPtr empty_prefix() const {
     const auto [evidence, weight] = lattice_.start();
@@ -105,10 +116,12 @@ class Search {
     return true;
   }
 
-  /// All prefixes that are one element longer; whole sequences among them go to `found_`.
-  std::vector<PrefixPtr> children(const PrefixPtr& prefix) {
+  /// All prefixes that are one element longer; whole sequences among them go to `found_`. `only`: a look that
+  /// the element must have.
+  std::vector<PrefixPtr> children(const PrefixPtr& prefix, int only = -1) {
     std::vector<PrefixPtr> made;
     for (int look = 0; look < look_count_; ++look) {
+      if (only >= 0 && look != only) continue;
       int first = lattice_.grid().cells + 1;
       int last = -1;
       for (auto from = prefix->layer.begin(); from != prefix->layer.end();) {
@@ -246,6 +259,11 @@ std::vector<PrefixPtr> most_probable_sequences(const Lattice& lattice, const Nod
                                                const std::vector<double>& posteriors,
                                                const SearchLimits& limits) {
   return Search(lattice, forward, backward, posteriors, limits).run();
+}
+
+PrefixPtr sequence_of(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
+                      const std::vector<double>& posteriors, const std::vector<int>& looks) {
+  return Search(lattice, forward, backward, posteriors, {2, 1}).follow(looks);
 }
 
 }  // namespace gramap

@@ -62,4 +62,9 @@ std::vector<std::shared_ptr<const Prefix>> most_probable_sequences(const Lattice
                                                                    const std::vector<double>& posteriors,
                                                                    const SearchLimits& limits);
 
+/// The sequence of these looks, or null when no layout of the lattice has it.
+std::shared_ptr<const Prefix> sequence_of(const Lattice& lattice, const NodeTable& forward,
+                                          const NodeTable& backward, const std::vector<double>& posteriors,
+                                          const std::vector<int>& looks);
+
 }  // namespace gramap

@@ -115,6 +115,9 @@ struct FitOptions {
   double false_door_share = 0.01;    ///< expected number of doors seen per space that are none
   int beam = 24;                     ///< prefixes of layouts that are carried on from about the same place
   int alternatives = 0;              ///< how many distinct alternatives to report
+  /// Instead of the most probable layout the one whose widths are expected to be least wrong
+  /// (least_error.h); widths are means over all layouts of its sequence.
+  bool least_error = false;
 };
 
 /// The most probable layout of the space. Throws InputError when no derivation fills the space, naming the
