@@ -41,7 +41,7 @@ int update(const LearnArguments& arguments, const LearnData& data) {
 int learn(const LearnArguments& arguments) {
   KnownFloors known;
   for (const std::string& path : arguments.floors) read_known_floors(path, arguments.wall_m, known);
-  const LearnData data = learn_data(known.floors, known.truths);
+  const LearnData data = learn_data(known.floors, known.truths, known.unseen);
   if (!arguments.update.empty()) return update(arguments, data);
   const LearnedRules rules = learn_rules(data, arguments.options);
   write_file(arguments.output, to_text(rules));
@@ -59,8 +59,9 @@ Verb declare_learn(CLI::App& gramap) {
   CLI::App* verb = gramap.add_subcommand("learn", "Learn a rule file from floors whose rooms are known");
   verb->add_option(
           "floors", arguments->floors,
-          "Floor folders with their truth, GeoJSON files that hold it, OpenStreetMap indoor plans, or IMDF "
-          "folders (every level is a floor; FILE#LEVEL takes one)")
+          "Floor folders with their truth, GeoJSON files that hold it, OpenStreetMap indoor plans, IMDF "
+          "folders (every level is a floor; FILE#LEVEL takes one), or fitted models (.glb, .gltf: what was "
+          "scanned counts, derived rooms do not)")
       ->required();
   verb->add_option("-o,--output", arguments->output, "The rule file to write; - is standard output")
       ->capture_default_str();

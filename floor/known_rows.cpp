@@ -159,7 +159,31 @@ std::vector<KnownRow> known_rows(const FloorGroundTruth& floor, const FloorTruth
   return rows;
 }
 
-LearnData learn_data(const std::vector<FloorGroundTruth>& floors, const std::vector<FloorTruth>& truths) {
+std::vector<KnownRow> seen_parts(const KnownRow& row, const std::set<std::string>& unseen,
+                                 double inner_wall_m) {
+  std::vector<KnownRow> parts;
+  bool goes_on = false;
+  for (const KnownRoom& room : row.rooms) {
+    if (unseen.contains(room.id)) {
+      goes_on = false;
+      continue;
+    }
+    if (!goes_on) {
+      parts.push_back(row);
+      parts.back().rooms.clear();
+      parts.back().length_m = -inner_wall_m;
+      parts.back().whole = false;
+    }
+    parts.back().rooms.push_back(room);
+    parts.back().length_m += room.width_m + inner_wall_m;
+    goes_on = true;
+  }
+  if (parts.size() == 1 && parts.front().rooms.size() == row.rooms.size()) return {row};
+  return parts;
+}
+
+LearnData learn_data(const std::vector<FloorGroundTruth>& floors, const std::vector<FloorTruth>& truths,
+                     const std::vector<std::set<std::string>>& unseen) {
   LearnData data;
   std::vector<double> inner, outer, heights;
   for (std::size_t i = 0; i < floors.size(); ++i) {
@@ -174,8 +198,10 @@ LearnData learn_data(const std::vector<FloorGroundTruth>& floors, const std::vec
   if (!heights.empty()) data.height_m = std::round(100 * median(heights)) / 100;
   for (std::size_t i = 0; i < floors.size(); ++i) {
     data.sources.push_back(floors[i].name);
-    for (KnownRow& row : known_rows(floors[i], truths[i], data.inner_wall_m))
-      data.rows.push_back(std::move(row));
+    const std::set<std::string> none;
+    for (const KnownRow& row : known_rows(floors[i], truths[i], data.inner_wall_m))
+      for (KnownRow& part : seen_parts(row, i < unseen.size() ? unseen[i] : none, data.inner_wall_m))
+        data.rows.push_back(std::move(part));
   }
   return data;
 }

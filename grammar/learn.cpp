@@ -331,7 +331,6 @@ void share_out(LearnedRules& rules, const std::vector<ClassPlaces>& places, bool
     rule.probability =
         rule.any_type < 0 ? (1 - unseen) * rule.count / n : 0.9 * unseen * stood[at(rule.any_type)] / rooms;
   }
-  if (!first) rules.background = std::clamp(0.1 * unseen, 0.001, 0.05);
 }
 
 /// Rules for rooms of a known type in a width of their own, and the background: as often as the data says
@@ -366,7 +365,7 @@ void leave_unseen(LearnedRules& rules, const std::vector<ClassPlaces>& places,
       add_rule(rules, rule, (first ? "first_other_" : "other_") + lower(rules.types[t].name));
     }
   }
-  rules.background = std::clamp(shares.background, rules.background, 0.1);
+  rules.background = std::clamp(shares.background, 0.001, 0.1);
 }
 
 /// Whatever a room follows, a room that no rule foresees is as likely as anywhere.

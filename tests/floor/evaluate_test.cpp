@@ -152,6 +152,24 @@ TEST_CASE("a hole in the truth parts a row") {
   CHECK_FALSE(rows[0].whole);
 }
 
+TEST_CASE("of a fitted floor only what was seen teaches") {
+  const LearnData all = learn_data({floor_file()}, {true_rooms()});
+  REQUIRE(all.rows.size() == 1);
+  const std::string middle = all.rows[0].rooms[1].id, last = all.rows[0].rooms[2].id;
+  const double wall_m = all.inner_wall_m;
+  CHECK(learn_data({floor_file()}, {true_rooms()}, {{"elsewhere"}}).rows[0].whole);
+  const LearnData parted = learn_data({floor_file()}, {true_rooms()}, {{middle}});
+  REQUIRE(parted.rows.size() == 2);
+  CHECK_FALSE(parted.rows[0].whole);
+  CHECK(parted.rows[1].rooms[0].id == last);
+  CHECK(parted.rows[1].length_m == doctest::Approx(all.rows[0].rooms[2].width_m));
+  const LearnData cut = learn_data({floor_file()}, {true_rooms()}, {{last}});
+  REQUIRE(cut.rows.size() == 1);
+  CHECK_FALSE(cut.rows[0].whole);
+  CHECK(cut.rows[0].length_m ==
+        doctest::Approx(all.rows[0].rooms[0].width_m + wall_m + all.rows[0].rooms[1].width_m));
+}
+
 TEST_CASE("leaving one floor out needs two") {
   const LearnData data = learn_data({floor_file()}, {true_rooms()});
   CHECK_THROWS_AS(cross_validate(data, {}, [](const LearnedRules&) { return RuleSet(); }, {}), InputError);
