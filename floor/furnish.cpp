@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floor/connect_rooms.h"
 #include "floor/derived_furniture.h"
 #include "floor/hallway_doors.h"
 #include "floor/place.h"
@@ -202,6 +203,7 @@ void furnish(FittedFloor& fitted, const RuleSet& rules, const std::vector<SpaceP
     for (FittedRoom& room : *given)
       if (const RoomObservation* seen = observation_of(room))
         add_seen(room, *seen, lay(*seen, room, nullptr, fitted.floor.outline));
+  connect_rooms(fitted);
 }
 
 }  // namespace gramap

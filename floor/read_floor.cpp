@@ -41,9 +41,9 @@ std::optional<double> positive_member(const GeoFile& file, const std::string& ke
   const std::optional<double> value = member_number(file, key);
   if (value && !(*value > 0 && *value <= most))
     throw InputError({file.path},
-                     "the collection's '" + key + "' is not between 0 and " +
+                     "the collection's '" + key + "' must be more than 0 and at most " +
                          std::to_string(static_cast<int>(most)) + " m",
-                     "give it in metres");
+                     "give it in metres, or leave it out when it is not known");
   return value;
 }
 

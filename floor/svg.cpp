@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
+#include "floor/global_id.h"
 #include "geometry/polygon.h"
 
 namespace gramap {
@@ -47,7 +47,7 @@ text { font-family: "Helvetica Neue", Arial, "Liberation Sans", sans-serif; fill
 .opening { fill: #fff; stroke: #33322f; stroke-width: 0.15 } .glass { stroke: #3b7ea6; stroke-width: 0.25 }
 .leaf { stroke: #7a4a22; stroke-width: 0.35; fill: none } .swing { stroke: #7a4a22; stroke-width: 0.13; fill: none }
 .furniture { fill: #fffdf8; stroke: #8a7a63; stroke-width: 0.15 } .furniture.derived { stroke-dasharray: 0.8 0.5; fill: #eef3f8 }
-.sigma { fill: #d1495b; opacity: 0.35 } .name { font-weight: 600 } .faint { fill: #666 } .title { text-anchor: start; font-weight: 600 }
+.sigma { opacity: 0.4 } .band { fill: #d1495b } .bar { stroke: #a8172d; stroke-width: 0.4 } .name { font-weight: 600 } .faint { fill: #666 } .title { text-anchor: start; font-weight: 600 }
 )";
 
 class Plan {
@@ -174,24 +174,59 @@ class Plan {
              (clockwise ? " 0 0 1 " : " 0 0 0 ") + format("%.3f %.3f", to.x(), to.y()) + "\"/>\n";
   }
 
-  /// Bands of ±2σ about the walls between the rooms of a space.
+  /// ±2σ about the wall behind each room of a space: a band within the space, or, where it would cover much
+  /// of the room before or behind, a bar at one of three heights, so that the bars of walls side by side can
+  /// be told apart.
   void uncertainty() {
-    std::map<std::string, const Space*> spaces;
-    for (const Space& space : model_.fitted.floor.spaces) spaces[space.id] = &space;
-    for (const ModelRoom& room : model_.rooms) {
-      const auto space = spaces.find(room.fitted.space);
-      if (room.fitted.space.empty() || space == spaces.end()) continue;
-      const Vec2 along = (space->second->end - space->second->start).normalized(),
-                 left(-along.y(), along.x());
-      const auto band = [&](double at_m, double sigma_m) {
-        if (2 * sigma_m * mm_per_m_ < 0.2) return;
-        const Vec2 foot = space->second->start + along * at_m, u = along * 2 * sigma_m,
-                   v = left * room.fitted.depth_m;
-        add_path("sigma", {{foot - u, foot + u, foot + u + v, foot - u + v}});
-      };
-      band(room.fitted.start_m, room.fitted.start_sigma_m);
-      band(room.fitted.start_m + room.fitted.width_m, room.fitted.end_sigma_m);
+    for (const Space& space : model_.fitted.floor.spaces) {
+      std::vector<const FittedRoom*> rooms;
+      for (const ModelRoom& room : model_.rooms)
+        if (room.kind == ModelRoom::Kind::room && room.fitted.space == space.id)
+          rooms.push_back(&room.fitted);
+      const std::string clip =
+          "clip-" + global_id(model_.name + "/" + space.id);  // unique in a page of storeys
+      // One group a space: bands that overlap do not add up to a darker one.
+      body_ += "<clipPath id=\"" + clip + "\"><path d=\"" + path({space.outline}) + "\"/></clipPath>\n" +
+               "<g class=\"sigma\" clip-path=\"url(#" + clip + ")\">\n";
+      for (std::size_t i = 0; i < rooms.size(); ++i) wall_uncertainty(space, *rooms[i], rooms, i % 3);
+      body_ += "</g>\n";
     }
+  }
+
+  void wall_uncertainty(const Space& space, const FittedRoom& room,
+                        const std::vector<const FittedRoom*>& rooms, std::size_t level) {
+    const Vec2 along = (space.end - space.start).normalized(), left(-along.y(), along.x());
+    const auto at = [&](double along_m, double left_m) -> Vec2 {
+      return space.start + along * along_m + left * left_m;
+    };
+    const auto depths = [&](const FittedRoom& of) {
+      std::pair range(1e300, -1e300);
+      for (const Vec2& p : of.outline) {
+        const double depth_m = (p - space.start).dot(left);
+        range = {std::min(range.first, depth_m), std::max(range.second, depth_m)};
+      }
+      return range;
+    };
+    const double length_m = (space.end - space.start).norm(), from_m = room.start_m + room.width_m;
+    const double to_m = from_m + model_.fitted.inner_wall_m, reach_m = 2 * room.end_sigma_m;
+    if (to_m >= length_m || reach_m * mm_per_m_ < 0.2) return;
+    const auto [low_m, high_m] = depths(room);
+    double narrowest_m = room.width_m;
+    for (const FittedRoom* next : rooms)
+      if (std::abs(next->start_m - to_m) < 0.05 && depths(*next).first < high_m &&
+          depths(*next).second > low_m)
+        narrowest_m = std::min(narrowest_m, next->width_m);
+    if (reach_m <= narrowest_m / 4) {
+      add_path("band", {{at(from_m - reach_m, low_m), at(to_m + reach_m, low_m), at(to_m + reach_m, high_m),
+                         at(from_m - reach_m, high_m)}});
+      return;
+    }
+    constexpr double kTick_m = 0.12;
+    const double start_m = std::max(0.0, from_m - reach_m), end_m = std::min(length_m, to_m + reach_m);
+    const double across_m = low_m + (high_m - low_m) * (0.12 + 0.06 * static_cast<double>(level));
+    add_line("bar", at(start_m, across_m), at(end_m, across_m));
+    for (const double tip_m : {start_m, end_m})
+      add_line("bar", at(tip_m, across_m - kTick_m), at(tip_m, across_m + kTick_m));
   }
 
   void labels() {
@@ -259,7 +294,7 @@ class Plan {
              escaped(model_.name) + "</text>\n";
     double x = kMargin_mm + metres * mm_per_m_ + 6;
     for (const auto& [css, label] : {std::pair("room", "known or observed"), std::pair("derived", "derived"),
-                                     std::pair("sigma", "wall ± 2σ")}) {
+                                     std::pair("band sigma", "wall ± 2σ")}) {
       body_ += std::string("<rect class=\"") + css +
                format("\" x=\"%.2f\" y=\"%.2f\" width=\"4\" height=\"2.4\"/>", x, y - 0.6);
       if (std::string(css) == "derived")

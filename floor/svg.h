@@ -9,7 +9,7 @@ namespace gramap {
 
 struct SvgOptions {
   int scale = 100;          ///< 1:100
-  bool uncertainty = true;  ///< bands of ±2σ at walls that were derived
+  bool uncertainty = true;  ///< ±2σ about walls that were derived: bands, or bars where they are wide
 };
 
 std::string to_svg(const FloorModel& model, const SvgOptions& options = {});

@@ -101,11 +101,13 @@ std::vector<std::pair<std::string, const Mesh*>> solids(const FloorModel& model)
 
 void check_solids(const FloorModel& model, VerifyReport& report) {
   const auto all = solids(model);
+  report.totals.slabs = 1;
+  report.totals.room_volumes = static_cast<int>(model.rooms.size());
+  report.totals.wall_solids = static_cast<int>(model.walls.size());
   std::vector<std::vector<MeshFault>> faults(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(),
                     [&](std::size_t i) { faults[i] = check_solid(*all[i].second); });
   for (std::size_t i = 0; i < all.size(); ++i) {
-    ++report.totals.solids;
     report.totals.triangles += static_cast<int>(all[i].second->triangles.size());
     for (const MeshFault& fault : faults[i])
       report.faults.push_back(
@@ -179,9 +181,15 @@ std::string to_text(const VerifyReport& report) {
                 "furniture\n",
                 t.rooms, t.hallways, t.fixed, t.walls, t.junctions, t.doors, t.windows, t.furniture);
   text += line;
-  std::snprintf(line, sizeof line, "%d solids, %d triangles: %s\n", t.solids, t.triangles,
-                report.ok() ? "closed, 2-manifold, outward, free of self-intersection" : "with faults");
-  text += line;
+  text += std::to_string(t.solids()) + " solids (";
+  const char* comma = "";
+  for (const auto& [count, what] :
+       {std::pair(t.slabs, t.slabs == 1 ? "slab" : "slabs"), std::pair(t.wall_solids, "walls and junctions"),
+        std::pair(t.room_volumes, "room volumes"), std::pair(t.opening_parts, "parts of doors and windows"),
+        std::pair(t.furniture_parts, "parts of furniture")})
+    if (count > 0) text += std::exchange(comma, ", ") + std::to_string(count) + " " + what;
+  text += "), " + std::to_string(t.triangles) + " triangles: " +
+          (report.ok() ? "closed, 2-manifold, outward, free of self-intersection\n" : "with faults\n");
   const auto add = [&text](const char* label, const std::vector<VerifyFault>& list) {
     for (const VerifyFault& fault : list)
       text += std::string(label) + " [" + fault.code + "] " + fault.message + " at (" +
@@ -223,7 +231,12 @@ std::string to_json(const VerifyReport& report) {
                            {"doors", t.doors},
                            {"windows", t.windows},
                            {"furniture", t.furniture},
-                           {"solids", t.solids},
+                           {"solids", t.solids()},
+                           {"slabs", t.slabs},
+                           {"wall_solids", t.wall_solids},
+                           {"room_volumes", t.room_volumes},
+                           {"opening_parts", t.opening_parts},
+                           {"furniture_parts", t.furniture_parts},
                            {"triangles", t.triangles}}}};
   return document.dump(1) + "\n";
 }

@@ -31,8 +31,15 @@ struct VerifyTotals {
   int doors = 0;
   int windows = 0;
   int furniture = 0;
-  int solids = 0;     ///< closed meshes checked
-  int triangles = 0;  ///< of these
+  /// Closed meshes checked, by what they are. A model in memory has room volumes and no parts yet; a file has
+  /// parts, and volumes only when they were asked for.
+  int slabs = 0;
+  int wall_solids = 0;
+  int room_volumes = 0;
+  int opening_parts = 0;  ///< frames, leaves, handles, panes, sills
+  int furniture_parts = 0;
+  int triangles = 0;  ///< of all these
+  int solids() const { return slabs + wall_solids + room_volumes + opening_parts + furniture_parts; }
 };
 
 struct VerifyReport {

@@ -86,6 +86,17 @@ class Verification {
            (ends_with(node.node, "_floor") || ends_with(node.node, "_ceiling"));
   }
 
+  int& kind_of_solid(const ReadNode& node) {
+    VerifyTotals& t = report_.totals;
+    if (node.kind == "wall") return t.wall_solids;
+    const auto parent = by_name_.find(node.parent);
+    const std::string kind = parent == by_name_.end() ? "" : parent->second->kind;
+    return kind == "door" || kind == "window" ? t.opening_parts
+           : kind == "furniture"              ? t.furniture_parts
+           : is_room(kind)                    ? t.room_volumes
+                                              : t.slabs;
+  }
+
   void solids() {
     std::vector<const ReadNode*> closed;
     for (const ReadNode& node : model_.nodes)
@@ -94,7 +105,7 @@ class Verification {
     tbb::parallel_for(std::size_t{0}, closed.size(),
                       [&](std::size_t i) { faults[i] = check_solid(closed[i]->mesh); });
     for (std::size_t i = 0; i < closed.size(); ++i) {
-      ++report_.totals.solids;
+      ++kind_of_solid(*closed[i]);
       report_.totals.triangles += static_cast<int>(closed[i]->mesh.triangles.size());
       for (const MeshFault& f : faults[i]) {
         const bool open = f.kind == MeshFault::Kind::open_edge;

@@ -1,6 +1,7 @@
 // The viewer of `gramap view`: reads the glTF that stands in the page, leaves out the faces in which solids abut,
 // merges meshes by material and place (a floor of a thousand rooms is then some dozen draw calls, of which a walker
-// needs few), and shows it to orbit, to walk and as a plan.
+// needs few), and shows it to orbit, to walk and as a plan. Without a graphics card it draws a sketch of the floor while
+// the view moves, and the floor itself when it stands.
 (function () {
   'use strict';
   const THREE = window.THREE;
@@ -8,7 +9,8 @@
   const state = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
 
   // ---- the model: nodes, things (nodes with extras.gramap), triangles ----
-  const bytes = Uint8Array.from(atob($('model').textContent.trim()), (c) => c.charCodeAt(0));
+  const text = atob($('model').textContent), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
   const jsonLength = new DataView(bytes.buffer).getUint32(12, true);
   const gltf = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + jsonLength)));
   const data = 28 + jsonLength;
@@ -21,7 +23,8 @@
   }
 
   const kTile_m = 60;   // what lies in one tile is drawn at once
-  const kTiny_m = 30;   // door handles farther away than this are not drawn
+  const kHandle_m = 0.035;  // door handles are not drawn where a pixel is larger than this
+  const kSliver_m = 0.07;   // nor are a sketch's triangles narrower than this where a pixel is larger
   const things = [];
   const buckets = new Map();
   const origin = { x: 0, y: 0 };
@@ -97,9 +100,11 @@
   const parts = [];
   for (const root of gltf.scenes[gltf.scene || 0].nodes) visit(root, new THREE.Matrix4(), null, null);
   dropHiddenFaces(parts.filter((part) => part.masonry));
+  function tileOf(part) {
+    return Math.round(part.position[0] / kTile_m) + '|' + Math.round(part.position[2] / kTile_m);
+  }
   for (const part of parts) {
-    const tile = Math.round(part.position[0] / kTile_m) + '|' + Math.round(part.position[2] / kTile_m);
-    const key = [part.layer, part.material, part.tiny, tile].join('|');
+    const key = [part.layer, part.material, part.tiny, tileOf(part)].join('|');
     if (!buckets.has(key)) buckets.set(key, { layer: part.layer, material: part.material, tiny: part.tiny, parts: [], points: 0, corners: 0 });
     const bucket = buckets.get(key);
     part.first = bucket.corners / 3;
@@ -111,9 +116,16 @@
   const floors = things.filter((t) => t.about.kind === 'floor');
 
   // ---- the scene ----
+  function colourOf(material) {
+    return gltf.materials[material].pbrMetallicRoughness.baseColorFactor;
+  }
+  function clarity(material) {
+    const alpha = colourOf(material)[3], clear = alpha !== undefined && alpha < 1;
+    return { transparent: clear, opacity: clear ? alpha : 1, depthWrite: !clear };
+  }
   const scene = new THREE.Scene();
   const layers = {};
-  const tiny = [], materials = new Map();
+  const details = [], materials = new Map();
   let triangles = 0;
   for (const bucket of buckets.values()) {
     const position = new Float32Array(bucket.points * 3), normal = new Float32Array(bucket.points * 3);
@@ -131,19 +143,13 @@
     geometry.setAttribute('normal', new THREE.BufferAttribute(normal, 3));
     geometry.setIndex(new THREE.BufferAttribute(index, 1));
     if (!materials.has(bucket.material)) {
-      const [r, g, b, alpha] = gltf.materials[bucket.material].pbrMetallicRoughness.baseColorFactor;
-      const clear = alpha !== undefined && alpha < 1;
-      materials.set(bucket.material, new THREE.MeshLambertMaterial({
-        color: new THREE.Color(r, g, b), transparent: clear, opacity: clear ? alpha : 1, depthWrite: !clear,
-      }));
+      const [r, g, b] = colourOf(bucket.material);
+      materials.set(bucket.material, new THREE.MeshLambertMaterial({ name: gltf.materials[bucket.material].name, color: new THREE.Color(r, g, b), ...clarity(bucket.material) }));
     }
     const mesh = new THREE.Mesh(geometry, materials.get(bucket.material));
     mesh.receiveShadow = !mesh.material.transparent;
     mesh.userData.parts = bucket.parts;
-    if (bucket.tiny) {
-      geometry.computeBoundingSphere();
-      tiny.push(mesh);
-    }
+    if (bucket.tiny) details.push({ mesh: mesh, size_m: kHandle_m });
     layers[bucket.layer] = layers[bucket.layer] || new THREE.Group();
     layers[bucket.layer].add(mesh);
     triangles += bucket.corners / 3;
@@ -172,6 +178,7 @@
     sun.intensity = mode.sun;
     sky.intensity = mode.sky;
     sun.castShadow = mode.casters.length > 0;
+    if (sketch) sketch.paint();
     for (const [layer, group] of Object.entries(layers))
       for (const mesh of group.children) mesh.castShadow = !mesh.material.transparent && mode.casters.includes(layer);
     fitShadows();
@@ -204,7 +211,80 @@
   const selection = new THREE.Group();
   scene.add(selection);
 
-  // Without a graphics card smooth edges cost more than all the rest: then they are left to pictures that stand.
+  // ---- the sketch ----
+  /// The floor as a machine without a graphics card can draw it many times a second: shadows and light, which cost it most,
+  /// are left out and painted on, all colours are one material, and narrow faces of furniture and openings are
+  /// drawn only where they are wider than a pixel.
+  function makeSketch() {
+    const made = { scene: new THREE.Scene(), layers: {}, materials: new Map(), details: [] }, bins = new Map();
+    for (const part of parts) {
+      const look = clarity(part.material), name = part.layer + '_' + look.opacity;
+      if (!made.materials.has(name))
+        made.materials.set(name, new THREE.MeshBasicMaterial({ name: name, vertexColors: THREE.VertexColors, ...look }));
+      const key = [name, tileOf(part)].join('|');
+      if (!bins.has(key)) bins.set(key, { layer: part.layer, material: made.materials.get(name), parts: [], wide: [], narrow: [], points: 0 });
+      const bin = bins.get(key);
+      bin.parts.push(part);
+      const detailed = part.layer === 'furniture' || part.layer === 'openings';
+      for (let t = 0; t < part.index.length; t += 3) {
+        const [a, b, c] = [0, 1, 2].map((k) => part.index[t + k]);
+        const into = detailed && (part.tiny || widthOf(part.position, a, b, c) < kSliver_m) ? bin.narrow : bin.wide;
+        into.push(a + bin.points, b + bin.points, c + bin.points);
+      }
+      bin.points += part.position.length / 3;
+    }
+    for (const bin of bins.values()) {
+      const position = new Float32Array(3 * bin.points);
+      let at = 0;
+      for (const part of bin.parts) { position.set(part.position, at); at += part.position.length; }
+      const positions = new THREE.BufferAttribute(position, 3);
+      bin.colours = new THREE.BufferAttribute(new Float32Array(3 * bin.points), 3);
+      made.layers[bin.layer] = made.layers[bin.layer] || new THREE.Group();
+      for (const index of [bin.wide, bin.narrow]) {
+        if (!index.length) continue;
+        const geometry = new THREE.BufferGeometry();
+        geometry.setAttribute('position', positions);
+        geometry.setAttribute('color', bin.colours);
+        geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(index), 1));
+        const mesh = new THREE.Mesh(geometry, bin.material);
+        mesh.matrixAutoUpdate = false;
+        made.layers[bin.layer].add(mesh);
+        if (index === bin.narrow) made.details.push({ mesh: mesh, size_m: kSliver_m });
+      }
+      delete bin.wide;
+      delete bin.narrow;
+    }
+    for (const group of Object.values(made.layers)) made.scene.add(group);
+    /// The light of the lamps as they are, after Lambert, on every point.
+    made.paint = () => {
+      const up = sky.position.clone().normalize(), toSun = sun.position.clone().sub(sun.target.position).normalize();
+      for (const bin of bins.values()) {
+        const out = bin.colours.array;
+        let at = 0;
+        for (const part of bin.parts) {
+          const colour = colourOf(part.material), n = part.normal;
+          const side = part.layer === 'ceilings' && !walking ? -1 : 1;  // who does not walk sees them from above
+          for (let i = 0; i < n.length; i += 3, at += 3) {
+            const above = (side * (n[i] * up.x + n[i + 1] * up.y + n[i + 2] * up.z)) / 2 + 0.5;
+            const facing = Math.max(0, side * (n[i] * toSun.x + n[i + 1] * toSun.y + n[i + 2] * toSun.z)) * sun.intensity;
+            out[at] = colour[0] * (sky.intensity * (sky.groundColor.r + (sky.color.r - sky.groundColor.r) * above) + sun.color.r * facing);
+            out[at + 1] = colour[1] * (sky.intensity * (sky.groundColor.g + (sky.color.g - sky.groundColor.g) * above) + sun.color.g * facing);
+            out[at + 2] = colour[2] * (sky.intensity * (sky.groundColor.b + (sky.color.b - sky.groundColor.b) * above) + sun.color.b * facing);
+          }
+        }
+        bin.colours.needsUpdate = true;
+      }
+    };
+    return made;
+  }
+  /// A triangle's height on its longest side.
+  function widthOf(p, a, b, c) {
+    const side = (i, j) => Math.hypot(p[3 * i] - p[3 * j], p[3 * i + 1] - p[3 * j + 1], p[3 * i + 2] - p[3 * j + 2]);
+    const [x, y, z] = [side(a, b), side(b, c), side(c, a)].sort((i, j) => j - i);
+    const half = (x + y + z) / 2;
+    return (2 * Math.sqrt(Math.max(0, half * (half - x) * (half - y) * (half - z)))) / x;
+  }
+
   function drawnBySoftware() {
     const gl = document.createElement('canvas').getContext('webgl'), about = gl && gl.getExtension('WEBGL_debug_renderer_info');
     return !!about && /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(about.UNMASKED_RENDERER_WEBGL));
@@ -223,33 +303,47 @@
     renderer.gammaOutput = true;
     renderer.localClippingEnabled = true;
     renderer.shadowMap.enabled = true;
-    renderer.shadowMap.type = THREE.PCFShadowMap;
+    renderer.shadowMap.type = software ? THREE.BasicShadowMap : THREE.PCFShadowMap;
     renderer.shadowMap.autoUpdate = false;
     $('view').appendChild(renderer.domElement);
   }
+  const sketch = renderer && software ? makeSketch() : null;
 
+  /// How many metres a pixel is wide at the nearest point of a mesh.
+  function pixel_m(mesh) {
+    const height = $('view').clientHeight;
+    if (camera === flat) return (flat.top - flat.bottom) / flat.zoom / height;
+    if (!mesh.geometry.boundingSphere) mesh.geometry.computeBoundingSphere();
+    const sphere = mesh.geometry.boundingSphere, away = perspective.position.distanceTo(sphere.center) - sphere.radius;
+    return (2 * Math.max(0, away) * Math.tan((perspective.fov / 2) * (Math.PI / 180))) / height;
+  }
   let later = 0;
-  function render(pixels) {
+  function render(what, pixels) {
     if (renderer.getPixelRatio() !== pixels) renderer.setPixelRatio(pixels);
     if (camera === perspective) {
       // The nearest plane as far away as it can be: depth is then fine enough for faces two centimetres apart.
       perspective.near = walking || !orbit ? 0.05 : Math.max(0.05, perspective.position.distanceTo(orbit.target) / 50);
       perspective.updateProjectionMatrix();
     }
-    for (const mesh of tiny) {
-      const sphere = mesh.geometry.boundingSphere;
-      mesh.visible = camera === flat || perspective.position.distanceTo(sphere.center) < sphere.radius + kTiny_m;
-    }
-    renderer.render(scene, camera);
+    for (const detail of what.details) detail.mesh.visible = pixel_m(detail.mesh) < detail.size_m;
+    what.scene.add(selection);
+    renderer.render(what.scene, camera);
   }
-  function drawSharp() {
-    render(window.devicePixelRatio * (software && triangles < 300000 ? 2 : 1));
+  // Without a graphics card smooth edges cost as much as three more pictures: they are left to pictures that stand.
+  const whole = { scene: scene, details: details };
+  function drawStanding() {
+    render(whole, window.devicePixelRatio * (software && triangles < 300000 ? 2 : 1));
+  }
+  function drawMoving() {
+    if (!sketch) return render(whole, window.devicePixelRatio);
+    for (const [layer, group] of Object.entries(sketch.layers)) group.visible = layers[layer].visible;
+    render(sketch, window.devicePixelRatio);
   }
   function draw() {
     if (!renderer) return;
-    render(window.devicePixelRatio);
+    drawMoving();
     clearTimeout(later);
-    if (software) later = setTimeout(drawSharp, 150);
+    if (software) later = setTimeout(drawStanding, 150);
   }
   function redrawShadows() {
     if (renderer) renderer.shadowMap.needsUpdate = true;
@@ -285,9 +379,9 @@
   function cut(open) {
     const height = Math.max(...floors.map((f) => f.about.elevation)) + 1.2;
     const plane = new THREE.Plane(new THREE.Vector3(0, -1, 0), height);
-    for (const [index, material] of materials) {
-      material.clippingPlanes = open && !/^(furniture|seat)/.test(gltf.materials[index].name) ? [plane] : null;
-      material.side = open || gltf.materials[index].name === 'ceiling' ? THREE.DoubleSide : THREE.FrontSide;
+    for (const material of [...materials.values(), ...(sketch ? sketch.materials.values() : [])]) {
+      material.clippingPlanes = open && !/^(furniture|seat)/.test(material.name) ? [plane] : null;
+      material.side = open || /ceiling/.test(material.name) ? THREE.DoubleSide : THREE.FrontSide;
       material.needsUpdate = true;
     }
   }
@@ -513,18 +607,23 @@
     select(thingAt(rect.left + x * rect.width, rect.top + y * rect.height));
   }
   if (state.measure && renderer) {
-    const pixel = new Uint8Array(4), gl = renderer.getContext();
-    const frame = () => {
-      perspective.position.x += 0.01;
-      render(window.devicePixelRatio);
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);  // waits until the frame is drawn
+    const pixel = new Uint8Array(4), gl = renderer.getContext(), opened = performance.now();
+    const measure = (label, paint, times) => {
+      const taken = [];
+      for (let i = 0; i <= times; ++i) {  // the first makes shadows and shaders
+        const start = performance.now();
+        perspective.position.x += 0.01;
+        paint();
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);  // waits until the frame is drawn
+        if (i) taken.push(performance.now() - start);
+      }
+      taken.sort((a, b) => a - b);
+      const drawn = renderer.info.render;
+      return label + ' ' + taken[times >> 1].toFixed(1) + ' ms a frame, ' + drawn.calls + ' draw calls, ' + drawn.triangles + ' triangles';
     };
-    frame();  // shadows and shaders
-    const start = performance.now();
-    for (let i = 0; i < 10; ++i) frame();
-    $('frame').textContent = ((performance.now() - start) / 10).toFixed(1) + ' ms a frame, ' + renderer.info.render.calls +
-      ' draw calls, ' + triangles + ' triangles';
+    $('frame').textContent = [measure('moving', drawMoving, 20), measure('standing', drawStanding, 2),
+      triangles + ' triangles in all', 'opened in ' + (opened / 1000).toFixed(1) + ' s'].join('; ');
   }
-  if (renderer) drawSharp();
+  if (renderer) drawStanding();
   document.body.dataset.ready = renderer ? 'yes' : 'no3d';
 })();
