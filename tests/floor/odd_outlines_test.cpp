@@ -95,7 +95,7 @@ TEST_CASE("floors of odd shapes, fitted without scans, pass the proof and leave 
         floor.hallways.push_back({"h" + std::to_string(floor.hallways.size()), "", ring});
       complete_floor(floor, rules, 1);
       std::vector<SetAsideInput> set_aside;
-      FitFloorOptions options;
+      FloorFitOptions options;
       options.space.grid_m = 0.05;
       const auto problems = space_problems(floor, rules, {}, options, set_aside);
       const FloorModel model = build_model(fit_floor(floor, rules, problems, {}, options));
