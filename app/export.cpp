@@ -66,9 +66,6 @@ std::string written(const std::string& output, const std::vector<FloorModel>& st
   const std::string type = extension(output);
   if (type == ".glb") return to_glb(storeys, run, options.gltf);
   if (type == ".gltf") return to_gltf(storeys, run, options.gltf);
-  if (storeys.size() > 1)
-    throw InputError({output}, "a plan is of one floor, and there are " + std::to_string(storeys.size()),
-                     "export each floor by itself, or the building as .glb");
   if (type == ".svg") return to_svg(storeys.front(), options.svg);
   return to_geojson(storeys.front().fitted);
 }
@@ -84,6 +81,10 @@ int run(const Options& options) {
   RunInfo info;
   info.version = GRAMAP_VERSION;
   const std::vector<FloorModel> storeys = built(read_floors(options.inputs, info), options);
+  for (const std::string& output : options.outputs)
+    if (storeys.size() > 1 && (extension(output) == ".svg" || extension(output) == ".geojson"))
+      throw InputError({output}, "a plan is of one floor, and there are " + std::to_string(storeys.size()),
+                       "export each floor by itself, or the building as .glb");
   bool set_aside = false;
   for (const FloorModel& storey : storeys) {
     const VerifyReport report = verify(storey);
