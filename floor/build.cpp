@@ -64,6 +64,9 @@ void add_rooms(FloorModel& model, NodeNames& names, const std::string& room_kind
 PlanInput plan_input(const FloorModel& model) {
   PlanInput input;
   for (const ModelRoom& room : model.rooms) input.rooms.push_back(room.fitted.outline);
+  // Walls as thick as the floor says are walls, drawn somewhat thicker as well.
+  input.thickest_wall_m =
+      std::max({input.thickest_wall_m, 1.25 * model.fitted.outer_wall_m, 1.25 * model.fitted.inner_wall_m});
   const FloorGroundTruth& floor = model.fitted.floor;
   if (floor.outline.empty()) {
     input.outline = outline_around(input.rooms, std::max(model.fitted.outer_wall_m, 0.05));

@@ -105,6 +105,7 @@ TEST_CASE("floors of odd shapes, fitted without scans, pass the proof and leave 
       CHECK(report.totals.area_exact);
       CHECK(report.warnings.empty());
       CHECK(report.totals.rooms >= 8);
+      CHECK(report.totals.windows >= 8);
       const std::string svg = to_svg(model);
       CHECK(count(svg, "<clipPath ") == floor.spaces.size());
       CHECK(count(svg, "clip-path=\"url(#clip-") == floor.spaces.size());
