@@ -151,7 +151,7 @@ TEST_CASE("faults of floor files are refused, each with its place and what was e
       {collection(kHallway, R"("coordinate_units":"mm",)"), "coordinate_units 'mm' are not known"},
       {collection(kHallway, ""), "do not look like longitude and latitude"},
       {collection(kHallway, R"("coordinate_units":"m","walls":{"inner":-1},)"),
-       "'walls.inner' is not between"},
+       "'walls.inner' must be more than 0"},
   };
   for (const Case& item : cases) {
     CAPTURE(item.text);
