@@ -55,7 +55,7 @@ struct PlanePatch {
   std::vector<std::uint8_t> occupied;  ///< columns × rows, row by row
 
   double distance(const Vec3& point) const { return normal.dot(point) - rho_m; }
-  /// True when the point's foot lies on an occupied cell or beside one.
+  /// True when the point's foot lies on an occupied cell.
   bool covers(const Vec3& point) const;
 };
 

@@ -1,0 +1,29 @@
+// What the benchmark of plane detection shares: clouds of known truth, and the methods that are compared.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "perception/scan.h"
+
+namespace gramap::bench {
+
+struct FoundPlane {
+  Vec3 normal = Vec3::UnitZ();  ///< unit vector
+  double rho_m = 0;             ///< normal · p = rho_m on the plane
+};
+
+struct PlaneMethod {
+  std::string name;
+  std::size_t most_points;  ///< it takes minutes beyond
+  std::vector<FoundPlane> (*detect)(std::span<const Point> points);
+};
+
+/// CGAL's Efficient RANSAC on one point a 5 cm voxel and least squares on its inliers, and Region Growing on
+/// all points.
+std::vector<PlaneMethod> cgal_methods();
+/// PCL's SACSegmentation, repeated on what is left; none when gramap was configured without PCL.
+std::vector<PlaneMethod> pcl_methods();
+
+}  // namespace gramap::bench
