@@ -28,7 +28,7 @@ struct SharedWall {
   double length_m() const { return (b - a).norm(); }
 };
 
-enum class Partner { same_unit, hallway, any };
+enum class Partner { entrance, same_unit, hallway, any };
 
 Vec2 outward(const Vec2& a, const Vec2& b) {
   const Vec2 along = (b - a).normalized();
@@ -63,12 +63,16 @@ class Floor {
     for (FittedRoom& room : fitted_.rooms)
       for (FittedOpening& opening : room.openings)
         if (opening.kind == "door" && opening.origin == Origin::derived) move_beside_walls(room, opening);
-    for (const FittedRoom* room : places_)
+    for (const FittedRoom* room : places_) {
+      if (has_door(*room)) entrances_.insert(room->id);
       for (const FittedOpening& opening : room->openings)
-        if (opening.kind == "door") passages_.emplace_back(room->id, behind(opening));
+        if (opening.kind == "door")
+          if (const std::string other = behind(opening); !other.empty())
+            passages_.emplace_back(room->id, other);
+    }
     // Rooms without any door first: those whose doors lead to one of them are then reached as well.
     for (const bool doorless : {true, false})
-      for (const Partner partner : {Partner::same_unit, Partner::hallway, Partner::any})
+      for (const Partner partner : {Partner::entrance, Partner::same_unit, Partner::hallway, Partner::any})
         while (connect_one(doorless, partner)) continue;
   }
 
@@ -84,7 +88,8 @@ class Floor {
         if (wall.length_m() < kWidth_m) continue;
         const FittedRoom& other = *places_[wall.other];
         if (closed.contains(other.id) || (partner == Partner::hallway && wall.other >= hallways_) ||
-            (partner == Partner::same_unit && !wall.same_unit))
+            (partner <= Partner::same_unit && !wall.same_unit) ||
+            (partner == Partner::entrance && !entrances_.contains(other.id)))
           continue;
         if (!best || wall.length_m() > best->length_m()) best = wall;
       }
@@ -115,12 +120,16 @@ class Floor {
     return {list.begin(), list.end()};
   }
 
-  /// The place a door leads to.
+  /// The place a door leads to: a room's id, "outside", or nothing where there is only wall.
   std::string behind(const FittedOpening& door) const {
-    const Vec2 beyond = (door.a + door.b) / 2 + outward(door.a, door.b) * (reach_m_ + 0.02);
+    const Vec2 middle = (door.a + door.b) / 2, out = outward(door.a, door.b),
+               beyond = middle + out * (reach_m_ + 0.02);
     for (const FittedRoom* room : places_)
       if (contains(room->outline, beyond)) return room->id;
-    return "outside";
+    const Polygon& outline = fitted_.floor.outline;
+    return outline.empty() || !contains(outline, middle + out * (1.5 * fitted_.outer_wall_m + 0.05))
+               ? "outside"
+               : "";
   }
 
   /// The stretches of a room's outline that face other places across a wall, less margins.
@@ -160,6 +169,8 @@ class Floor {
   /// A door that does not face one place alone moves to the nearest stretch beside it that does, before
   /// a hallway if it can.
   void move_beside_walls(const FittedRoom& room, FittedOpening& door) {
+    const std::string leads_to = behind(door);
+    if (leads_to == "outside") return;
     const Vec2 along = (door.b - door.a).normalized();
     const double width_m = (door.b - door.a).norm();
     std::optional<std::pair<bool, double>> best;  // not a hallway, and how far to move
@@ -172,7 +183,7 @@ class Floor {
       if (back_m <= kMargin_m && ahead_m >= -kMargin_m) return;  // as it is, it faces this place alone
       const double move_m = back_m > 0 ? back_m : ahead_m;
       const std::pair rank(wall.other >= hallways_, std::abs(move_m));
-      if (std::abs(move_m) > width_m || (best && *best <= rank)) continue;
+      if ((!leads_to.empty() && std::abs(move_m) > width_m) || (best && *best <= rank)) continue;
       best = rank;
       shift_m = move_m;
     }
@@ -186,6 +197,7 @@ class Floor {
   std::vector<Eigen::AlignedBox2d> boxes_;
   std::size_t hallways_ = 0;
   std::map<const FittedRoom*, std::vector<SharedWall>> walls_;  ///< of the rooms asked for so far
+  std::set<std::string> entrances_;                             ///< what had a door from the first
   std::vector<std::pair<std::string, std::string>> passages_;   ///< what lies at both sides of each door
 };
 

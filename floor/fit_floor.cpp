@@ -19,6 +19,9 @@
 namespace gramap {
 namespace {
 
+/// Rooms that a space's shape leaves less of are left out.
+constexpr double kLeastDepth_m = 0.1;
+
 /// The part of a ring on the side of a line where (p - at)·normal >= 0 (Sutherland–Hodgman).
 Polygon clipped(const Polygon& ring, const Vec2& at, const Vec2& normal) {
   Polygon kept;
@@ -130,6 +133,14 @@ void add_space(FittedFloor& fitted, const Space& space, const SpaceProblem& prob
     if (placed.depth_m >= 0) {  // one of several rooms one behind the other
       const Vec2 near = space.start + placed.depth_start_m * left;
       room.outline = clipped(clipped(room.outline, near, left), near + placed.depth_m * left, -left);
+    }
+    if (room.outline.size() < 3 || oriented_box(room.outline).breadth_m < kLeastDepth_m) {
+      const std::string what = "room " + std::to_string(number) + " of space '" + space.id + "' (" +
+                               room.type + ") has no place: the space is not deep enough there";
+      fitted.floor.remarks.push_back(what);
+      for (const int index : placed.evidence)
+        fitted.set_aside.push_back({problem.rooms[static_cast<std::size_t>(index)].id, what});
+      continue;
     }
     for (const Vec2& point : room.outline)
       room.depth_m = std::max(room.depth_m, (point - space.start).dot(left) - placed.depth_start_m);

@@ -621,7 +621,7 @@
       const drawn = renderer.info.render;
       return label + ' ' + taken[times >> 1].toFixed(1) + ' ms a frame, ' + drawn.calls + ' draw calls, ' + drawn.triangles + ' triangles';
     };
-    $('frame').textContent = [measure('moving', drawMoving, 20), measure('standing', drawStanding, 2),
+    $('frame').textContent = [measure('moving', drawMoving, Math.max(20, Number(state.measure))), measure('standing', drawStanding, 2),
       triangles + ' triangles in all', 'opened in ' + (opened / 1000).toFixed(1) + ' s'].join('; ');
   }
   if (renderer) drawStanding();

@@ -67,6 +67,25 @@ void check_model(const FittedFloor& floor) {
 
 }  // namespace
 
+TEST_CASE("the rooms of a unit are entered from each other, not from the next unit or the hallway") {
+  FittedFloor floor = beside_a_hallway(8);
+  for (const double x : {0.0, 4.1}) {
+    const std::string n = x == 0 ? "1" : "2";
+    floor.rooms.push_back(room("bath" + n, rectangle(x, 0, x + 2, 2), x, 2));
+    floor.rooms.push_back(room("vestibule" + n, rectangle(x + 2.2, 0, x + 3.9, 2), x + 2.2, 1.7));
+    add_door(floor.rooms.back(), {x + 2.5, 0}, {x + 3.4, 0});
+    floor.rooms.push_back(room("bed" + n, rectangle(x, 2.2, x + 3.9, 7), x, 3.9));
+  }
+  connect_rooms(floor);
+  for (const FittedRoom& made : floor.rooms) {
+    CAPTURE(made.id);
+    REQUIRE(doors(made) == 1);
+    const std::string n(1, made.id.back());
+    CHECK(behind(floor, made.openings[0]) == (made.id[0] == 'v' ? "hall" : "vestibule" + n));
+  }
+  check_model(floor);
+}
+
 TEST_CASE("a room that only neighbours have doors to becomes a way to them") {
   FittedFloor floor = beside_a_hallway(8);
   // Two rooms in a row across the hallway's end; the second one's only door leads into the first.
