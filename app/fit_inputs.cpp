@@ -31,7 +31,7 @@ fs::path floor_file(const FitInputOptions& options) {
 
 /// Given, or the folder beside the floor file when the floor is a folder.
 fs::path scans_folder(const FitInputOptions& options) {
-  const fs::path beside = fs::path(options.floor) / "scans";
+  fs::path beside = fs::path(options.floor) / "scans";
   if (!options.scans.empty() || !fs::is_directory(beside)) return options.scans;
   return beside;
 }

@@ -42,7 +42,9 @@ double near_share(const Polygon& ring, const Polygon& other) {
   double near = 0, all = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2 way = ring[(i + 1) % ring.size()] - ring[i];
-    for (double t = 0.01; t < 1; t += 0.02) {
+    constexpr int kSamples = 50;
+    for (int k = 0; k < kSamples; ++k) {
+      const double t = (k + 0.5) / kSamples;
       all += way.norm();
       near += distance_to_border(other, ring[i] + t * way) <= 0.05 ? way.norm() : 0;
     }

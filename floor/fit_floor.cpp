@@ -62,7 +62,7 @@ FittedRoom given_room(const std::string& id, const std::string& name, const std:
 }
 
 /// Names that are taken, so that every room gets one of its own.
-std::string unique_id(std::string wanted, std::set<std::string>& taken) {
+std::string unique_id(const std::string& wanted, std::set<std::string>& taken) {
   std::string id = wanted;
   for (int suffix = 2; !taken.insert(id).second; ++suffix) id = wanted + "_" + std::to_string(suffix);
   return id;

@@ -1,8 +1,10 @@
 #include "floor/read_indoor.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "floor/find_spaces.h"
@@ -104,6 +106,34 @@ Unit osm_unit(const GeoFile& file, const GeoFeature& feature) {
   return unit;
 }
 
+/// Metres of a length as OpenStreetMap writes them: "0.9", "0.9 m", "90 cm", "3 ft", 6'8" (its wiki, "Map
+/// features/Units"); nothing for other text, of which crowds write much.
+std::optional<double> osm_length_m(const std::string& text) {
+  static const std::map<std::string, double> units{{"", 1},        {"m", 1},       {"cm", 0.01},
+                                                   {"mm", 0.001},  {"ft", 0.3048}, {"'", 0.3048},
+                                                   {"in", 0.0254}, {"\"", 0.0254}};
+  const auto skip_blanks = [](const char* at, const char* end) {
+    return std::find_if(at, end, [](char c) { return c != ' '; });
+  };
+  const char* const end = text.data() + text.size();
+  double length_m = 0;
+  const char* at = skip_blanks(text.data(), end);
+  if (at == end) return std::nullopt;
+  while (at != end) {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc()) return std::nullopt;
+    const char* const unit = skip_blanks(stop, end);
+    const char* const unit_end =
+        std::find_if(unit, end, [](char c) { return c == ' ' || (c >= '0' && c <= '9'); });
+    const auto known = units.find(std::string(unit, unit_end));
+    if (known == units.end()) return std::nullopt;
+    length_m += value * known->second;
+    at = skip_blanks(unit_end, end);
+  }
+  return std::isfinite(length_m) && length_m > 0 ? std::optional(length_m) : std::nullopt;
+}
+
 std::map<std::string, Level> read_osm(const GeoFile& file) {
   std::map<std::string, Level> levels;
   for (const GeoFeature& feature : file.features) {
@@ -120,7 +150,8 @@ std::map<std::string, Level> read_osm(const GeoFile& file) {
       if (area)
         level.units.push_back(osm_unit(file, feature));
       else
-        level.doors.push_back({point_of(file, feature), number_of(file, feature, "width").value_or(0)});
+        level.doors.push_back(
+            {point_of(file, feature), osm_length_m(text_of(feature.properties, "width")).value_or(0)});
     }
   }
   return levels;

@@ -53,6 +53,25 @@ std::string osm_plan(const std::string& level) {
 
 }  // namespace
 
+TEST_CASE(
+    "widths of doors are read as OpenStreetMap writes lengths; other text is no reason to refuse a plan") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::pair<std::string, double>> widths{
+      {"1.1 m", 1.1}, {"110 cm", 1.1}, {"3 ft", 0.9144}, {R"(2'11\")", 0.889},
+      {"0.8m", 0.8},  {"wide", 0.9},   {"", 0.9},        {"-1", 0.9}};
+  for (const auto& [text, width_m] : widths) {
+    CAPTURE(text);
+    const auto path = folder.write(
+        "plan.geojson",
+        collection(osm_plan("1") + "," +
+                   feature(R"("door":"yes","level":"1","width":")" + text + "\"", point(1.5, 2))));
+    const std::vector<IndoorFloor> floors = read_indoor(path);
+    REQUIRE(floors.size() == 1);
+    REQUIRE(floors[0].truth.openings.size() == 3);
+    CHECK(floors[0].truth.openings[2].width_m == doctest::Approx(width_m));
+  }
+}
+
 TEST_CASE("an OpenStreetMap plan becomes a floor with spaces, walls and doors, turned as it is") {
   const test::TemporaryFolder folder;
   const auto path = folder.write("plan.geojson", collection(osm_plan("1")));
