@@ -10,6 +10,7 @@
 #include <new>
 #include <vector>
 
+#include "app/fault.h"
 #include "app/option_table.h"
 #include "app/verbs.h"
 #include "geometry/error.h"
@@ -68,9 +69,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;
   } catch (const InputError& error) {
-    const std::string place = to_string(error.place);
-    std::fprintf(stderr, "gramap: %s%s%s\n", place.c_str(), place.empty() ? "" : ": ", error.what());
-    if (!error.advice.empty()) std::fprintf(stderr, "  help: %s\n", error.advice.c_str());
+    print_fault(error);
     return kInputFault;
   } catch (const std::filesystem::filesystem_error& error) {
     std::fprintf(stderr, "gramap: %s: %s\n", error.path1().c_str(), error.code().message().c_str());

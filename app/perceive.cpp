@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "app/fault.h"
 #include "app/perceive_table.h"
 #include "app/png.h"
 #include "app/scan_format.h"
@@ -33,7 +35,7 @@ struct Options {
   std::string output = "-";
   ScanFormat format;
   std::string debug, truth;
-  bool verbose = false;
+  bool verbose = false, mistakes = false;
   std::string images;
   PerceptionOptions perception;
 };
@@ -60,21 +62,20 @@ std::vector<fs::path> rooms_of(const std::vector<std::string>& folders) {
   return rooms;
 }
 
+constexpr std::array<std::uint8_t, 3> kDoorColour = {180, 95, 0}, kWindowColour = {0, 60, 255};
+
 /// What each wall looks like from the scanner positions, as pictures ROOM_wallN.png.
 void write_wall_images(const fs::path& folder, const Perception& found) {
-  fs::create_directories(folder);
+  make_folder(folder);
   const std::vector<WallImage> walls = label_images(found.cloud, found.observation);
   for (std::size_t i = 0; i < walls.size(); ++i) {
-    const Picture picture = wall_picture(walls[i]);
+    Picture picture = wall_picture(walls[i]);
+    for (const OpeningObservation& one : found.observation.openings)
+      if (one.wall == static_cast<int>(i))
+        frame_opening(picture, walls[i], one, one.kind == "door" ? kDoorColour : kWindowColour);
     write_file(folder / (found.observation.room + "_wall" + std::to_string(i) + ".png"),
                png_bytes(picture.width, picture.height, picture.rgb));
   }
-}
-
-void print_fault(const InputError& error) {
-  const std::string place = to_string(error.place);
-  std::fprintf(stderr, "gramap: %s%s%s\n", place.c_str(), place.empty() ? "" : ": ", error.what());
-  if (!error.advice.empty()) std::fprintf(stderr, "  help: %s\n", error.advice.c_str());
 }
 
 int run(const Options& options) {
@@ -91,11 +92,13 @@ int run(const Options& options) {
   std::optional<FloorTruth> truth;
   if (!options.truth.empty()) truth = read_truth(options.truth);
   std::vector<RoomObservation> perceived;
+  std::vector<std::string> scanned;
   const bool many = rooms.size() > 1;
   if (many && options.output == "-" && !truth)
     throw CLI::ValidationError("-o", "several rooms need a folder to write to: -o FOLDER");
   std::size_t bad = 0;
   for (const fs::path& folder : rooms) {
+    scanned.push_back(folder.filename());
     try {
       if (options.verbose) std::fprintf(stderr, "%s\n", folder.c_str());
       if (!options.debug.empty())
@@ -135,7 +138,10 @@ int run(const Options& options) {
       ++bad;
     }
   }
-  if (truth) std::fputs(accuracy_table(perceived, *truth).c_str(), stdout);
+  if (truth) {
+    std::fputs(accuracy_table(perceived, *truth).c_str(), stdout);
+    std::fputs(things_table(scanned, perceived, *truth, options.mistakes).c_str(), stdout);
+  }
   if (bad == rooms.size()) return kInputFault;
   return bad ? kSetAside : kDone;
 }
@@ -162,11 +168,15 @@ Verb declare_perceive(CLI::App& gramap) {
   verb->add_option(
       "--wall-images", options->images,
       "Folder for a picture of every wall as the scanners saw it: labels (grey: wall, white: seen "
-      "through, red: not seen) and depth");
+      "through, red: not seen) and depth, doors found framed brown, windows blue");
   verb->add_flag("!--no-openings", options->perception.find_openings, "Do not look for doors and windows");
   verb->add_flag("!--no-furniture", options->perception.find_furniture, "Do not look for furniture");
-  verb->add_option("--truth", options->truth,
-                   "A truth.geojson, or the floor folder with one: print how far each room is from it");
+  verb->add_option(
+      "--truth", options->truth,
+      "A truth.geojson, or the floor folder with one: print how far each room is from it, and how "
+      "many doors, windows and pieces of furniture were found");
+  verb->add_flag("--mistakes", options->mistakes,
+                 "With --truth: name each thing missed and each found in vain");
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes, time and memory");
   return [options] { return run(*options); };
 }

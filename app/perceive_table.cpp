@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/score_table.h"
+#include "floor/building.h"
 #include "geometry/polygon.h"
+#include "perception/truth_match.h"
 
 namespace gramap {
 namespace {
@@ -137,6 +140,27 @@ std::string accuracy_table(const std::vector<RoomObservation>& rooms, const Floo
   std::snprintf(line, sizeof line, "walls found: at least %.1f %% of every room's; false walls: %d\n",
                 100 * least_found, false_walls);
   return text + line;
+}
+
+std::string things_table(const std::vector<std::string>& scanned, const std::vector<RoomObservation>& rooms,
+                         const FloorTruth& truth, bool mistakes) {
+  Scores scores;
+  for (const BuildingRoom& room : building_of(truth).rooms) {
+    if (std::find(scanned.begin(), scanned.end(), room.id) == scanned.end()) continue;
+    const auto found =
+        std::find_if(rooms.begin(), rooms.end(), [&](const RoomObservation& o) { return o.room == room.id; });
+    const RoomObservation seen = found == rooms.end() ? RoomObservation{} : *found;
+    const BuildingRoom there = found == rooms.end() ? room : aligned_truth(room, seen);
+    Scores here = score_furniture(seen.furniture, there);
+    for (const char* kind : {"door", "window"})
+      here[kind] = score_openings(seen.openings, true_openings(there, seen), kind);
+    for (auto& [kind, score] : here) {
+      for (std::string& mistake : score.mistakes) mistake.insert(0, "room " + room.id + ": ");
+      scores[kind].add(score);
+    }
+  }
+  return score_table("doors and windows (IoU on the wall at least 0.5), furniture (in the plan)", scores,
+                     mistakes);
 }
 
 }  // namespace gramap

@@ -15,4 +15,9 @@ namespace gramap {
 /// corners. The last row sums up.
 std::string accuracy_table(const std::vector<RoomObservation>& rooms, const FloorTruth& truth);
 
+/// Recall and precision of doors, windows and furniture in the rooms that were scanned; of those that could
+/// not be perceived all is missed. With `mistakes` each thing missed or found in vain.
+std::string things_table(const std::vector<std::string>& scanned, const std::vector<RoomObservation>& rooms,
+                         const FloorTruth& truth, bool mistakes);
+
 }  // namespace gramap

@@ -110,6 +110,11 @@ void declare_day(CLI::App& verb, SimulateOptions& o) {
   verb.add_option("--blinds", o.blinds_share, "Share of the windows with a blind partly let down")
       ->check(share)
       ->capture_default_str();
+  verb.add_option(
+          "--opposite", o.opposite_share,
+          "Share of the windows with something in sight behind them, 1.5 to 5 m off, where no room is")
+      ->check(share)
+      ->capture_default_str();
   verb.add_option("--outer-wall", o.outer_wall_m, "Thickness of walls that no room lies behind, metres")
       ->check(CLI::Range(0.01, 2.0))
       ->capture_default_str();
@@ -151,9 +156,7 @@ std::vector<std::size_t> chosen_rooms(const Building& building, const std::vecto
 }
 
 void write_room(const std::filesystem::path& folder, const SimulatedRoom& room, int decimals) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError({folder.string()}, "cannot make this folder: " + error.message());
+  make_folder(folder);
   for (std::size_t i = 0; i < room.scans.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "scan%03zu", i);

@@ -231,7 +231,12 @@ FurnitureCandidates furniture_candidates(const RegisteredCloud& cloud, const Roo
 
 std::vector<FurnitureObservation> find_furniture(const RegisteredCloud& cloud, const RoomObservation& room,
                                                  const Forest& forest, const FurnitureOptions& options) {
-  const FurnitureCandidates candidates = furniture_candidates(cloud, room, options);
+  return judge_furniture(furniture_candidates(cloud, room, options), cloud.origin_m, forest,
+                         options.least_confidence);
+}
+
+std::vector<FurnitureObservation> judge_furniture(const FurnitureCandidates& candidates, const Vec3& origin_m,
+                                                  const Forest& forest, double least_confidence) {
   struct Piece {
     FurnitureObservation observed;
     double sure;
@@ -243,11 +248,11 @@ std::vector<FurnitureObservation> find_furniture(const RegisteredCloud& cloud, c
       const FurnitureCandidate& candidate = candidates.all[static_cast<std::size_t>(piece)];
       const std::vector<double> votes = forest.votes(candidate.features);
       const double sure = 1 - votes[kNoFurniture];
-      if (sure < options.least_confidence) continue;
+      if (sure < least_confidence) continue;
       const auto best = std::max_element(votes.begin() + kTable, votes.end()) - votes.begin();
       FurnitureObservation observed;
       observed.type = furniture_class_names()[static_cast<std::size_t>(best)];
-      for (const Vec2& p : candidate.footprint) observed.footprint.push_back(p + cloud.origin_m.head<2>());
+      for (const Vec2& p : candidate.footprint) observed.footprint.push_back(p + origin_m.head<2>());
       observed.top_m = candidate.top_m;
       observed.confidence = votes[static_cast<std::size_t>(best)];
       found.push_back({std::move(observed), sure});

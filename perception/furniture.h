@@ -44,7 +44,10 @@ FurnitureCandidates furniture_candidates(const RegisteredCloud& cloud, const Roo
                                          const FurnitureOptions& options = {});
 
 /// Of each connected thing the cutting that the forest believes in most; what it takes for nothing is left
-/// out.
+/// out. Footprints are moved by the cloud's `origin_m`.
+std::vector<FurnitureObservation> judge_furniture(const FurnitureCandidates& candidates, const Vec3& origin_m,
+                                                  const Forest& forest, double least_confidence);
+
 std::vector<FurnitureObservation> find_furniture(const RegisteredCloud& cloud, const RoomObservation& room,
                                                  const Forest& forest, const FurnitureOptions& options = {});
 

@@ -33,7 +33,7 @@ WallImage blank(const RoomObservation& room, std::size_t index, const Vec3& orig
   const int rows = cells(image.height_m, pixel_m), columns = cells(image.length_m, pixel_m);
   image.label = {columns, rows, kOccluded};
   image.depth = {columns, rows, static_cast<float>(-kDepthLimit_m)};
-  image.offset_sum = image.offset_squares = image.offset_count = {columns, rows};
+  image.beyond = image.offset_sum = image.offset_squares = image.offset_count = {columns, rows};
   return image;
 }
 
@@ -113,10 +113,19 @@ double depth_behind(const WallImage& image, const BitGrid& grid, const Vec3& sca
   return depth;
 }
 
+/// How many points are seen towards each patch, and how many of them well behind the wall.
+struct Returns {
+  cv::Mat all, beyond;
+  explicit Returns(const cv::Size& size)
+      : all(cv::Mat::zeros(size, CV_32F)), beyond(cv::Mat::zeros(size, CV_32F)) {}
+};
+
 /// Patches that one position measured something in front of: its points that stand off the wall, seen in the
 /// wall's plane from the scanner. Tells where a thin cloud would let rays leak through what stands there.
-cv::Mat hidden_patches(const WallImage& image, const cv::Size& size, std::span<const Point> points,
-                       const Vec3& scanner, double at_plane_m) {
+/// Adds the position's points to `returns`.
+cv::Mat hidden_patches(const WallImage& image, std::span<const Point> points, const Vec3& scanner,
+                       double at_plane_m, Returns& returns) {
+  const cv::Size size = returns.all.size();
   cv::Mat counts = cv::Mat::zeros(size, CV_32F), front = cv::Mat::zeros(size, CV_8U);
   const double scanner_across =
       image.outward.dot(scanner.head<2>() - image.a);  // negative: inside of the room
@@ -131,24 +140,27 @@ cv::Mat hidden_patches(const WallImage& image, const cv::Size& size, std::span<c
     if (column < 0 || row < 0 || column >= size.width || row >= size.height) continue;
     counts.at<float>(row, column) += 1;
     const double across = scanner_across + approach;
+    if (across > kDepthLimit_m) returns.beyond.at<float>(row, column) += 1;
     const bool beside = (crossing - point.cast<double>()).head<2>().norm() <= kBeside_m;
     if (across < (beside ? -at_plane_m : -0.5 * at_plane_m)) front.at<std::uint8_t>(row, column) = 255;
   }
+  returns.all += counts;
   const double spacing_m = 1 / std::sqrt(density_of(counts, column_m, row_m));
   return closed(front, spacing_m, std::min(column_m, row_m));
 }
 
-/// The greatest depth that any position sees at each patch.
-cv::Mat traced_depth(const WallImage& image, const BitGrid& grid, const RegisteredCloud& cloud,
+/// The greatest depth that any position sees at each patch; fills the image's `beyond`.
+cv::Mat traced_depth(WallImage& image, const BitGrid& grid, const RegisteredCloud& cloud,
                      const std::vector<ScannerCoverage>& coverages, double at_plane_m,
                      const LabelOptions& options) {
   cv::Mat depth(cells(image.height_m, options.trace_m), cells(image.length_m, options.trace_m), CV_32F,
                 cv::Scalar(-kDepthLimit_m));
   const double across_m = image.length_m / depth.cols, up_m = image.height_m / depth.rows;
+  Returns returns(depth.size());
   for (std::size_t i = 0; i < coverages.size(); ++i) {
     const RegisteredCloud::Part& part = cloud.parts[i];
     const auto points = std::span(cloud.points_m).subspan(part.begin, part.end - part.begin);
-    const cv::Mat hidden = hidden_patches(image, depth.size(), points, part.scanner_m, at_plane_m);
+    const cv::Mat hidden = hidden_patches(image, points, part.scanner_m, at_plane_m, returns);
     for (int row = 0; row < depth.rows; ++row)
       for (int column = 0; column < depth.cols; ++column) {
         auto& best = depth.at<float>(row, column);
@@ -160,6 +172,9 @@ cv::Mat traced_depth(const WallImage& image, const BitGrid& grid, const Register
                           static_cast<float>(depth_behind(image, grid, part.scanner_m, patch, at_plane_m)));
       }
   }
+  const double mean = std::max(cv::mean(returns.all)[0], 1e-9);
+  cv::Mat beyond = matrix(image.beyond);
+  cv::resize(returns.beyond / mean, beyond, beyond.size(), 0, 0, cv::INTER_NEAREST);
   return depth;
 }
 
@@ -253,29 +268,6 @@ std::vector<WallImage> label_images(const RegisteredCloud& cloud, const RoomObse
     label(images[i], splats[i], traced, spacings[i], std::max(options.beyond_m, at_plane_m + 0.05));
   }
   return images;
-}
-
-Picture wall_picture(const WallImage& wall) {
-  const int columns = wall.label.columns, rows = wall.label.rows, gap = 4;
-  Picture picture{columns, 2 * rows + gap, {}};
-  picture.rgb.assign(static_cast<std::size_t>(3 * picture.width * picture.height), 255);
-  const auto paint = [&](int column, int row, int red, int green, int blue) {
-    const auto at = static_cast<std::size_t>(3 * (row * columns + column));
-    picture.rgb[at] = static_cast<std::uint8_t>(red);
-    picture.rgb[at + 1] = static_cast<std::uint8_t>(green);
-    picture.rgb[at + 2] = static_cast<std::uint8_t>(blue);
-  };
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const std::uint8_t label = wall.label.at(column, row);
-      const int top = rows - 1 - row;
-      if (label == kOccupied) paint(column, top, 130, 130, 130);
-      if (label == kOccluded) paint(column, top, 200, 60, 60);
-      const double share = 0.5 + 0.5 * wall.depth.at(column, row) / kDepthLimit_m;
-      const int grey = std::clamp(static_cast<int>(std::lround(255 * share)), 0, 255);
-      paint(column, rows + gap + top, grey, grey, grey);
-    }
-  return picture;
 }
 
 }  // namespace gramap

@@ -4,6 +4,7 @@
 // 2011.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,8 +22,10 @@ enum Label : std::uint8_t {
 
 /// Rasters over a wall: columns from the wall's corner `a` to `b`, rows from the floor up. `label` holds
 /// Label values, `depth` the signed distance in metres behind the wall's plane of what is seen there,
-/// negative in front, cut off at ± kDepthLimit_m. The last three are sums over the points near the wall of
-/// their distances from its plane.
+/// negative in front, cut off at ± kDepthLimit_m. `beyond`: points seen through the wall at least that far
+/// behind it, as a multiple of what is seen per patch over the whole wall: other rooms return rays, the
+/// outdoors hardly any. The last three are sums over the points near the wall of their distances from its
+/// plane.
 struct WallImage {
   Vec2 a = Vec2::Zero();         ///< corner in the cloud's frame (relative to its origin)
   Vec2 along = Vec2::UnitX();    ///< unit vector
@@ -31,7 +34,7 @@ struct WallImage {
   double length_m = 0, height_m = 0;
   double pixel_m = 0.02;
   Raster<std::uint8_t> label;
-  Raster<float> depth, offset_sum, offset_squares, offset_count;
+  Raster<float> depth, beyond, offset_sum, offset_squares, offset_count;
 };
 
 inline constexpr double kDepthLimit_m = 0.6;
@@ -56,5 +59,9 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 Picture wall_picture(const WallImage& wall);
+
+/// Draws the border of an opening over both images of its wall's picture.
+void frame_opening(Picture& picture, const WallImage& wall, const OpeningObservation& opening,
+                   const std::array<std::uint8_t, 3>& rgb);
 
 }  // namespace gramap

@@ -8,6 +8,9 @@
 namespace gramap {
 namespace {
 
+constexpr double kMargin_m = 0.1;  // of the wall around a candidate
+constexpr double kStrip_m = 0.06;  // narrower piers do not part openings
+
 /// Sums over rectangles of a raster in constant time.
 class Integral {
  public:
@@ -31,7 +34,7 @@ class Integral {
 };
 
 struct WallSums {
-  Integral occupied, empty, openness, offset_squares, offset_count;
+  Integral occupied, empty, openness, beyond, offset_squares, offset_count;
 };
 
 WallSums sums_of(const WallImage& wall) {
@@ -43,6 +46,7 @@ WallSums sums_of(const WallImage& wall) {
              const auto label = wall.label.at(c, r);
              return label == kEmpty ? 1.0 : label == kOccupied ? -1.0 : -0.5;
            }},
+          {columns, rows, [&](int c, int r) { return static_cast<double>(wall.beyond.at(c, r)); }},
           {columns, rows, [&](int c, int r) { return static_cast<double>(wall.offset_squares.at(c, r)); }},
           {columns, rows, [&](int c, int r) { return static_cast<double>(wall.offset_count.at(c, r)); }}};
 }
@@ -88,13 +92,51 @@ bool within(const PixelBox& inner, const PixelBox& outer, int slack) {
          inner.bottom >= outer.bottom - slack && inner.top <= outer.top + slack;
 }
 
+/// The share of a strip that is wall; the floor, the ceiling and other walls are where the image ends.
+double wall_in(PixelBox strip, const WallImage& wall, const WallSums& sums) {
+  const double all = strip.area();
+  strip = {std::max(strip.left, 0), std::max(strip.bottom, 0), std::min(strip.right, wall.label.columns),
+           std::min(strip.top, wall.label.rows)};
+  if (strip.width() <= 0 || strip.height() <= 0) return 1;
+  return (sums.occupied.over(strip) + all - strip.area()) / all;
+}
+
+/// Most of what was measured in the wall's direction lies behind it, and little of it is there: a beam, or
+/// the frame of a wide passage. What is open below it is neither door nor window.
+bool is_beam(const WallImage& wall, const WallSums& sums) {
+  const PixelBox all{0, 0, wall.label.columns, wall.label.rows};
+  return sums.beyond.over(all) > 0.5 * all.area() && sums.occupied.over(all) < 0.35 * all.area();
+}
+
+double wall_across(const PixelBox& box, const WallImage& wall, const WallSums& sums) {
+  const int strip = std::max(1, static_cast<int>(kStrip_m / wall.pixel_m)), edge = 2 * strip;
+  double most = 0;
+  for (int at = box.left + edge; at + strip <= box.right - edge; ++at)
+    most = std::max(most, wall_in({at, box.bottom, at + strip, box.top}, wall, sums));
+  return most;
+}
+
 }  // namespace
 
 const std::vector<std::string>& opening_feature_names() {
-  static const std::vector<std::string> names = {
-      "area",           "width/height",   "width/wall",     "height/wall", "to top",
-      "to bottom",      "to left",        "to right",       "plane rms",   "empty share",
-      "occupied share", "occluded share", "interior boxes", "inverted Us"};
+  static const std::vector<std::string> names = {"area",
+                                                 "width/height",
+                                                 "width/wall",
+                                                 "height/wall",
+                                                 "to top",
+                                                 "to bottom",
+                                                 "to left",
+                                                 "to right",
+                                                 "plane rms",
+                                                 "empty share",
+                                                 "occupied share",
+                                                 "occluded share",
+                                                 "interior boxes",
+                                                 "inverted Us",
+                                                 "seen beyond",
+                                                 "wall beside",
+                                                 "wall over and under",
+                                                 "wall across"};
   return names;
 }
 
@@ -111,6 +153,7 @@ std::vector<OpeningCandidate> opening_candidates(const WallImage& wall, const Ca
   const WallSums sums = sums_of(wall);
   const double pixel = wall.pixel_m;
   std::vector<OpeningCandidate> candidates;
+  if (is_beam(wall, sums)) return candidates;
   for (std::size_t i = 0; i < edges.upright.size(); ++i)
     for (std::size_t j = i + 1; j < edges.upright.size(); ++j) {
       const int width = edges.upright[j].at - edges.upright[i].at;
@@ -131,6 +174,7 @@ std::vector<OpeningCandidate> opening_candidates(const WallImage& wall, const Ca
         }
     }
   const std::vector<PixelBox> us = inverted_us(edges, 0.15 / pixel);
+  const int margin = static_cast<int>(kMargin_m / pixel);
   for (OpeningCandidate& candidate : candidates) {
     const PixelBox& b = candidate.box;
     const double width = b.width() * pixel, height = b.height() * pixel;
@@ -154,7 +198,13 @@ std::vector<OpeningCandidate> opening_candidates(const WallImage& wall, const Ca
         occupied,
         1 - empty - occupied,
         static_cast<double>(boxes),
-        static_cast<double>(std::count_if(us.begin(), us.end(), inside))};
+        static_cast<double>(std::count_if(us.begin(), us.end(), inside)),
+        std::min(sums.beyond.over(b) / b.area(), 2.0),
+        std::min(wall_in({b.left - margin, b.bottom, b.left, b.top}, wall, sums),
+                 wall_in({b.right, b.bottom, b.right + margin, b.top}, wall, sums)),
+        std::min(wall_in({b.left, b.bottom - margin, b.right, b.bottom}, wall, sums),
+                 wall_in({b.left, b.top, b.right, b.top + margin}, wall, sums)),
+        wall_across(b, wall, sums)};
     std::transform(std::begin(features), std::end(features), candidate.features.begin(),
                    [](double value) { return static_cast<float>(value); });
   }

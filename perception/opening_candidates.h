@@ -1,4 +1,4 @@
-// Rectangles on a wall that may be doors or windows, and the 14 features that a forest judges them by.
+// Rectangles on a wall that may be doors or windows, and the features that a forest judges them by.
 #pragma once
 
 #include <array>
@@ -9,9 +9,13 @@
 
 namespace gramap {
 
-inline constexpr std::size_t kOpeningFeatures = 14;
+inline constexpr std::size_t kOpeningFeatures = 18;
 
-/// The features' names in their order (Adan and Huber 2011), for tables and model files.
+/// The features' names in their order, for tables and model files: the 14 of Adan and Huber (2011); how much
+/// is measured behind the opening, by which doors to other rooms differ from windows down to the floor; what
+/// share of the strips beside the box is wall (the lesser one: a part of an opening has more of it on one
+/// side), and of those above and below; and the most that any upright strip inside the box is wall: the pier
+/// between two windows.
 const std::vector<std::string>& opening_feature_names();
 
 /// A rectangle in pixels of its wall's image; `right` and `top` are one past the last.
@@ -44,8 +48,8 @@ struct CandidateOptions {
 };
 
 /// All rectangles of two vertical and two horizontal lines of the wall's image (its borders count) that are
-/// not mostly wall, fitted to the labels. Lines: Canny and Sobel on the depth image, probabilistic Hough
-/// transform.
+/// not mostly wall, fitted to the labels; none on what is a beam rather than a wall. Lines: Canny and Sobel
+/// on the depth image, probabilistic Hough transform.
 std::vector<OpeningCandidate> opening_candidates(const WallImage& wall, const CandidateOptions& options = {});
 
 }  // namespace gramap

@@ -7,6 +7,8 @@
 namespace gramap {
 namespace {
 
+constexpr double kMostShared = 0.15;  // of the smaller of two openings
+
 struct Accepted {
   const OpeningCandidate* candidate;
   OpeningClass kind;
@@ -53,7 +55,7 @@ std::vector<int> clustered(const std::vector<Accepted>& accepted, std::vector<in
   return labels;
 }
 
-OpeningObservation observed(const Accepted& best, const WallImage& image, int wall) {
+OpeningObservation observed(const Accepted& best, const WallCandidates& image, int wall) {
   const PixelBox& box = best.candidate->box;
   OpeningObservation opening;
   opening.kind = opening_class_names()[best.kind];
@@ -68,24 +70,22 @@ OpeningObservation observed(const Accepted& best, const WallImage& image, int wa
   return opening;
 }
 
-}  // namespace
-
-const std::vector<std::string>& opening_class_names() {
-  static const std::vector<std::string> names = {"none", "door", "window"};
-  return names;
-}
-
-std::vector<OpeningObservation> judge_openings(const WallImage& image,
-                                               const std::vector<OpeningCandidate>& candidates,
-                                               const Forest& forest, int wall, double least_confidence) {
+/// What the forest takes for a door or a window, the most confident first.
+std::vector<Accepted> accepted_of(const WallCandidates& wall, const Forest& forest, double least_confidence) {
   std::vector<Accepted> accepted;
-  for (const OpeningCandidate& candidate : candidates) {
+  for (const OpeningCandidate& candidate : wall.all) {
     const std::vector<double> votes = forest.votes(candidate.features);
     const OpeningClass kind = votes[kDoor] >= votes[kWindow] ? kDoor : kWindow;
-    if (votes[kind] >= least_confidence) accepted.push_back({&candidate, kind, votes[kind]});
+    if (votes[kDoor] + votes[kWindow] >= least_confidence)
+      accepted.push_back({&candidate, kind, votes[kind]});
   }
   std::stable_sort(accepted.begin(), accepted.end(),
                    [](const Accepted& a, const Accepted& b) { return a.confidence > b.confidence; });
+  return accepted;
+}
+
+/// The best of each cluster, the most confident first.
+std::vector<Accepted> best_of_clusters(const std::vector<Accepted>& accepted) {
   int clusters = 0;
   std::vector<int> labels = first_labels(accepted, clusters);
   labels = clustered(accepted, std::move(labels), clusters);
@@ -97,33 +97,70 @@ std::vector<OpeningObservation> judge_openings(const WallImage& image,
       if (labels[i] == cluster && (best == nullptr || merit(accepted[i]) > merit(*best))) best = &accepted[i];
     if (best != nullptr) kept.push_back(*best);
   }
-  // Two clusters may have met in one opening; the more confident stays.
   std::stable_sort(kept.begin(), kept.end(),
                    [](const Accepted& a, const Accepted& b) { return a.confidence > b.confidence; });
+  return kept;
+}
+
+bool in_the_way(const PixelBox& a, const PixelBox& b) {
+  const int width = std::min(a.right, b.right) - std::max(a.left, b.left);
+  const int height = std::min(a.top, b.top) - std::max(a.bottom, b.bottom);
+  return width > 0 && height > 0 &&
+         static_cast<double>(width) * height > kMostShared * std::min(a.area(), b.area());
+}
+
+std::vector<OpeningObservation> judged(const WallCandidates& image, const Forest& forest, int wall,
+                                       double least_confidence) {
+  std::vector<Accepted> left = accepted_of(image, forest, least_confidence);
   std::vector<OpeningObservation> openings;
-  std::vector<PixelBox> taken;
-  for (const Accepted& one : kept) {
-    if (std::any_of(taken.begin(), taken.end(),
-                    [&](const PixelBox& box) { return overlap(box, one.candidate->box) > 0.1; }))
-      continue;
-    taken.push_back(one.candidate->box);
-    openings.push_back(observed(one, image, wall));
+  // A box over two openings may have drawn both of them into its cluster: what no chosen one covers is looked
+  // at again.
+  while (!left.empty()) {
+    std::vector<PixelBox> taken;
+    const auto is_free = [&](const Accepted& one) {
+      return std::none_of(taken.begin(), taken.end(),
+                          [&](const PixelBox& box) { return in_the_way(box, one.candidate->box); });
+    };
+    for (const Accepted& one : best_of_clusters(left)) {
+      if (!is_free(one)) continue;
+      taken.push_back(one.candidate->box);
+      openings.push_back(observed(one, image, wall));
+    }
+    std::erase_if(left, [&](const Accepted& one) { return !is_free(one); });
   }
   std::sort(openings.begin(), openings.end(),
             [](const auto& a, const auto& b) { return a.start_m < b.start_m; });
   return openings;
 }
 
-std::vector<OpeningObservation> find_openings(const RegisteredCloud& cloud, const RoomObservation& room,
-                                              const Forest& forest, const OpeningOptions& options) {
+}  // namespace
+
+const std::vector<std::string>& opening_class_names() {
+  static const std::vector<std::string> names = {"none", "door", "window"};
+  return names;
+}
+
+std::vector<WallCandidates> wall_candidates(const RegisteredCloud& cloud, const RoomObservation& room,
+                                            const OpeningOptions& options) {
+  std::vector<WallCandidates> walls;
+  for (const WallImage& image : label_images(cloud, room, options.labels))
+    walls.push_back({image.pixel_m, image.height_m, opening_candidates(image, options.candidates)});
+  return walls;
+}
+
+std::vector<OpeningObservation> judge_openings(const std::vector<WallCandidates>& walls, const Forest& forest,
+                                               double least_confidence) {
   std::vector<OpeningObservation> openings;
-  const std::vector<WallImage> images = label_images(cloud, room, options.labels);
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const auto found = judge_openings(images[i], opening_candidates(images[i], options.candidates), forest,
-                                      static_cast<int>(i), options.least_confidence);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto found = judged(walls[i], forest, static_cast<int>(i), least_confidence);
     openings.insert(openings.end(), found.begin(), found.end());
   }
   return openings;
+}
+
+std::vector<OpeningObservation> find_openings(const RegisteredCloud& cloud, const RoomObservation& room,
+                                              const Forest& forest, const OpeningOptions& options) {
+  return judge_openings(wall_candidates(cloud, room, options), forest, options.least_confidence);
 }
 
 }  // namespace gramap

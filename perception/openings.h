@@ -16,14 +16,23 @@ const std::vector<std::string>& opening_class_names();
 struct OpeningOptions {
   LabelOptions labels;
   CandidateOptions candidates;
-  double least_confidence = 0.5;  ///< share of the forest's votes for one of the two kinds
+  double least_confidence = 0.5;  ///< share of the forest's votes for the two kinds together
 };
 
-/// Judges the candidates of one wall: those that the forest accepts are clustered by centre and area
-/// (k-means), and of each cluster the most open one is kept. `wall` is the wall's index in its room.
-std::vector<OpeningObservation> judge_openings(const WallImage& image,
-                                               const std::vector<OpeningCandidate>& candidates,
-                                               const Forest& forest, int wall, double least_confidence);
+/// What may be doors and windows on one wall; boxes are in pixels.
+struct WallCandidates {
+  double pixel_m = 0, height_m = 0;
+  std::vector<OpeningCandidate> all;
+};
+
+/// The candidates on each wall of the room, in the order of its walls.
+std::vector<WallCandidates> wall_candidates(const RegisteredCloud& cloud, const RoomObservation& room,
+                                            const OpeningOptions& options = {});
+
+/// Judges the candidates of each wall: those that the forest accepts are clustered by centre and area
+/// (k-means), and of each cluster the most open one is kept. An opening's kind is that of most votes.
+std::vector<OpeningObservation> judge_openings(const std::vector<WallCandidates>& walls, const Forest& forest,
+                                               double least_confidence);
 
 /// All doors and windows of the room, in the order of its walls and along them. None is a result, not an
 /// error.

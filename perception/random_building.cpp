@@ -138,6 +138,7 @@ SimulateOptions random_conditions(std::uint64_t seed) {
   options.window_frame_m = random.chance(0.4) ? 0 : random.uniform(0.03, 0.08);
   options.blinds_share = random.chance(0.6) ? 0 : random.uniform(0, 0.4);
   options.outer_wall_m = random.uniform(0.25, 0.5);
+  options.opposite_share = random.chance(0.4) ? 0 : random.uniform(0, 1);
   return options;
 }
 

@@ -82,6 +82,7 @@ struct SimulateOptions {
   double doors_ajar_share = 0;  ///< leaf somewhere between 20° and 80°
   double window_frame_m = 0;    ///< width of the frame around the pane; 0: no frame
   double blinds_share = 0;      ///< windows with a blind let down by 20 to 60 % of their height
+  double opposite_share = 0;    ///< windows with something in sight behind, 1.5 to 5 m off: a façade, a tree
   double outer_wall_m = 0.3;    ///< depth of the reveal of openings with no room behind
 
   /// true: the poses are in a frame of the room's own, origin at the first position, heading unknown.

@@ -206,6 +206,25 @@ void add_window(std::vector<Face>& faces, const Aperture& hole, const SimulateOp
   }
 }
 
+/// What is in sight through a window, unless rooms are there: an upright face that may be narrower than the
+/// window or wider, low or high.
+void add_opposite(std::vector<Face>& faces, const Building& building, const Aperture& hole,
+                  const SimulateOptions& options, Random& random) {
+  const double drawn = random.uniform(), away = random.uniform(1.5, 5.0), aside = random.uniform(-1.0, 1.0);
+  const double width = random.uniform(0.5, 12.0), top = random.uniform(0.5, 6.0);
+  if (drawn >= options.opposite_share) return;
+  const Vec2 along = (hole.b - hole.a).normalized();
+  const Vec2 middle = 0.5 * (hole.a + hole.b) + (hole.depth + away) * hole.outward + aside * along;
+  constexpr int kPlaces = 9;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Vec2 place = middle + (static_cast<double>(i) / (kPlaces - 1) - 0.5) * width * along;
+    for (const BuildingRoom& room : building.rooms)
+      if (contains(room.outline, place)) return;
+  }
+  faces.push_back(upright(middle - 0.5 * width * along, middle + 0.5 * width * along, hole.bottom - 3,
+                          hole.bottom + top));
+}
+
 /// What a hole is like depends on the seed and its place, not on how many other holes there are.
 Random random_of(const Aperture& hole, std::uint64_t seed) {
   const Vec2 middle = 0.5 * (hole.a + hole.b);
@@ -235,7 +254,9 @@ std::vector<Face> building_faces(const Building& building, const SimulateOptions
     add_reveal(faces, hole);
     Random random = random_of(hole, options.seed);
     if (hole.kind == "door") add_leaf(faces, hole, options, random);
-    if (hole.kind == "window") add_window(faces, hole, options, random);
+    if (hole.kind != "window") continue;
+    add_window(faces, hole, options, random);
+    add_opposite(faces, building, hole, options, random);
   }
   return faces;
 }

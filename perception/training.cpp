@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numeric>
 
 #include "perception/random.h"
@@ -37,32 +38,36 @@ std::vector<TrainingRoom> known_rooms(const Building& building, const SimulateOp
   return known;
 }
 
-std::vector<Sample> opening_samples(const TrainingRoom& known, const OpeningOptions& options) {
+namespace {
+
+PixelBox box_of(const OpeningObservation& opening, double pixel_m) {
+  const auto px = [&](double m) { return static_cast<int>(std::lround(m / pixel_m)); };
+  return {px(opening.start_m), px(opening.sill_m), px(opening.start_m + opening.width_m), px(opening.head_m)};
+}
+
+/// Candidates labelled door or window where they overlap a true opening by at least 0.7, none below 0.5;
+/// those in between teach nothing and are left out.
+std::vector<Sample> opening_samples(const std::vector<WallCandidates>& walls,
+                                    const std::vector<OpeningObservation>& truth, int group) {
   std::vector<Sample> samples;
-  const std::vector<OpeningObservation> truth = true_openings(known.truth, known.room);
-  const std::vector<WallImage> images = label_images(known.cloud, known.room, options.labels);
-  for (std::size_t wall = 0; wall < images.size(); ++wall)
-    for (const OpeningCandidate& candidate : opening_candidates(images[wall], options.candidates)) {
+  for (std::size_t wall = 0; wall < walls.size(); ++wall)
+    for (const OpeningCandidate& candidate : walls[wall].all) {
       double best = 0;
       int label = kNoOpening;
       for (const OpeningObservation& opening : truth) {
         if (opening.wall != static_cast<int>(wall)) continue;
-        const auto px = [&](double m) { return static_cast<int>(std::lround(m / images[wall].pixel_m)); };
-        const PixelBox box{px(opening.start_m), px(opening.sill_m), px(opening.start_m + opening.width_m),
-                           px(opening.head_m)};
-        if (overlap(box, candidate.box) <= best) continue;
-        best = overlap(box, candidate.box);
+        const double share = overlap(box_of(opening, walls[wall].pixel_m), candidate.box);
+        if (share <= best) continue;
+        best = share;
         label = opening.kind == "door" ? kDoor : kWindow;
       }
       if (best >= 0.5 && best < 0.7) continue;
       samples.push_back({{candidate.features.begin(), candidate.features.end()},
                          best < 0.5 ? static_cast<int>(kNoOpening) : label,
-                         known.group});
+                         group});
     }
   return samples;
 }
-
-namespace {
 
 std::string described(const char* fault, const OpeningObservation& opening) {
   char text[160];
@@ -70,6 +75,23 @@ std::string described(const char* fault, const OpeningObservation& opening) {
                 opening.kind.c_str(), opening.wall, opening.start_m, opening.width_m, opening.sill_m,
                 opening.head_m);
   return text;
+}
+
+Scores opening_reach(const std::vector<WallCandidates>& walls, const std::vector<OpeningObservation>& truth) {
+  Scores reach;
+  for (const OpeningObservation& opening : truth) {
+    Score& score = reach[opening.kind];
+    ++score.truth;
+    const auto wall = static_cast<std::size_t>(opening.wall);
+    const bool reached =
+        wall < walls.size() &&
+        std::any_of(walls[wall].all.begin(), walls[wall].all.end(), [&](const OpeningCandidate& candidate) {
+          return overlap(box_of(opening, walls[wall].pixel_m), candidate.box) >= 0.5;
+        });
+    score.right += reached;
+    if (!reached) score.mistakes.push_back(described("no candidate for", opening));
+  }
+  return reach;
 }
 
 }  // namespace
@@ -104,12 +126,17 @@ Interval wilson(int successes, int trials) {
 }
 
 Task opening_task(const OpeningOptions& options) {
-  const auto score = [options](const TrainingRoom& known, const Forest& forest) {
-    const auto found = find_openings(known.cloud, known.room, forest, options);
-    const auto truth = true_openings(known.truth, known.room);
-    std::vector<std::pair<std::string, Score>> scores;
-    for (const char* kind : {"door", "window"}) scores.emplace_back(kind, score_openings(found, truth, kind));
-    return scores;
+  const auto evidence = [options](const TrainingRoom& known) -> Evidence {
+    const auto walls = std::make_shared<const std::vector<WallCandidates>>(
+        wall_candidates(known.cloud, known.room, options));
+    const std::vector<OpeningObservation> truth = true_openings(known.truth, known.room);
+    const auto score = [walls, truth, least = options.least_confidence](const Forest& forest) {
+      const auto found = judge_openings(*walls, forest, least);
+      Scores scores;
+      for (const char* kind : {"door", "window"}) scores[kind] = score_openings(found, truth, kind);
+      return scores;
+    };
+    return {known.truth.id, opening_samples(*walls, truth, known.group), opening_reach(*walls, truth), score};
   };
   return {"openings",
           opening_feature_names(),
@@ -118,9 +145,10 @@ Task opening_task(const OpeningOptions& options) {
            {"place", {"to top", "to bottom", "to left", "to right"}},
            {"plane fit", {"plane rms"}},
            {"labels", {"empty share", "occupied share", "occluded share"}},
-           {"edges", {"interior boxes", "inverted Us"}}},
-          [options](const TrainingRoom& known) { return opening_samples(known, options); },
-          score};
+           {"edges", {"interior boxes", "inverted Us"}},
+           {"beyond", {"seen beyond"}},
+           {"wall around", {"wall beside", "wall over and under", "wall across"}}},
+          evidence};
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,23 +27,6 @@ std::vector<TrainingRoom> known_rooms(const Building& building, const SimulateOp
 
 RegisteredCloud registered(const SimulatedRoom& room);
 
-/// One of the two things that forests are trained for.
-struct Task {
-  std::string name;
-  std::vector<std::string> features, classes;
-  /// Features that say something of one kind, by name.
-  std::vector<std::pair<std::string, std::vector<std::string>>> feature_groups;
-  std::function<std::vector<Sample>(const TrainingRoom&)> samples;
-  /// Scores by kind of what the whole chain finds in a room with a forest.
-  std::function<std::vector<std::pair<std::string, struct Score>>(const TrainingRoom&, const Forest&)> score;
-};
-Task opening_task(const OpeningOptions& options = {});
-Task furniture_task(const FurnitureOptions& options = {});
-
-/// The candidates on a room's walls, labelled door or window where they overlap a true opening by at least
-/// 0.7, none below 0.5; those in between teach nothing and are left out.
-std::vector<Sample> opening_samples(const TrainingRoom& known, const OpeningOptions& options);
-
 /// How often something was found, missed, or found where there is nothing.
 struct Score {
   int truth = 0;                      ///< things there are
@@ -56,10 +40,36 @@ struct Score {
   double recall() const { return truth > 0 ? static_cast<double>(right) / truth : 1; }
   double precision() const { return found > 0 ? static_cast<double>(right) / found : 1; }
 };
+using Scores = std::map<std::string, Score>;  ///< by kind of what is found
+
+/// What forests learn from a room and are judged by in it. Its candidates are made once, for many forests;
+/// the scans are not needed any more.
+struct Evidence {
+  std::string room;
+  std::vector<Sample> samples;
+  /// Of the true things, those that one candidate at least overlaps by half: what no forest can better.
+  Scores reach;
+  std::function<Scores(const Forest&)> score;  ///< what the whole chain finds with a forest
+};
+
+/// One of the two things that forests are trained for.
+struct Task {
+  std::string name;
+  std::vector<std::string> features, classes;
+  /// Features that say something of one kind, by name.
+  std::vector<std::pair<std::string, std::vector<std::string>>> feature_groups;
+  std::function<Evidence(const TrainingRoom&)> evidence;
+};
+Task opening_task(const OpeningOptions& options = {});
+Task furniture_task(const FurnitureOptions& options = {});
 
 /// Found openings of one kind against the true ones: matched when they overlap by at least half.
 Score score_openings(const std::vector<OpeningObservation>& found,
                      const std::vector<OpeningObservation>& truth, const std::string& kind);
+
+/// Found furniture against the true pieces: "furniture": found where there is some, of whatever class (plan
+/// IoU at least 0.5); "class right": of those, the ones called by their name; and each class for itself.
+Scores score_furniture(const std::vector<FurnitureObservation>& found, BuildingRoom truth);
 
 /// 95 % confidence interval of a share (Wilson 1927).
 struct Interval {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <memory>
 
 #include "geometry/overlap.h"
 #include "geometry/polygon.h"
@@ -21,9 +21,8 @@ int label_of(const std::string& type) {
 constexpr int kCutsForEach = 5;
 
 /// Candidates labelled by the true piece that they overlap by at least 0.7, none below 0.5.
-std::vector<Sample> furniture_samples(const TrainingRoom& known, const FurnitureOptions& options) {
+std::vector<Sample> furniture_samples(const TrainingRoom& known, const FurnitureCandidates& candidates) {
   std::vector<Sample> samples;
-  const FurnitureCandidates candidates = furniture_candidates(known.cloud, known.room, options);
   int cuts = 0;
   for (std::size_t i = 0; i < candidates.all.size(); ++i) {
     const FurnitureCandidate& candidate = candidates.all[i];
@@ -58,12 +57,32 @@ std::string described(const char* fault, const std::string& type, const Polygon&
   return text;
 }
 
-/// "furniture": found where there is some, of whatever class; "class right": of those, the ones called by
-/// their name.
-std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<FurnitureObservation>& found,
-                                                           BuildingRoom truth) {
+/// The pieces that one candidate at least overlaps by half, by their true class.
+Scores furniture_reach(const TrainingRoom& known, const FurnitureCandidates& candidates) {
+  Scores reach;
+  for (const BuildingFurniture& piece : known.truth.furniture) {
+    if (!piece.counts()) continue;
+    Score& score = reach[furniture_class_names()[static_cast<std::size_t>(label_of(piece.type))]];
+    ++score.truth;
+    Polygon outline = piece.outline;
+    for (Vec2& p : outline) p -= known.cloud.origin_m.head<2>();
+    const bool reached =
+        std::any_of(candidates.all.begin(), candidates.all.end(), [&](const FurnitureCandidate& candidate) {
+          return (centroid(outline) - centroid(candidate.footprint)).norm() < 1 &&
+                 intersection_over_union(outline, candidate.footprint) >= 0.5;
+        });
+    score.right += reached;
+    if (!reached)
+      score.mistakes.push_back(described("no candidate for", piece.type, piece.outline, piece.top_m));
+  }
+  return reach;
+}
+
+}  // namespace
+
+Scores score_furniture(const std::vector<FurnitureObservation>& found, BuildingRoom truth) {
   std::erase_if(truth.furniture, [](const BuildingFurniture& piece) { return !piece.counts(); });
-  std::map<std::string, Score> scores;
+  Scores scores;
   Score& any = scores["furniture"];
   Score& named = scores["class right"];
   std::vector<bool> taken(truth.furniture.size());
@@ -91,10 +110,8 @@ std::vector<std::pair<std::string, Score>> score_furniture(const std::vector<Fur
     if (!taken[i])
       any.mistakes.push_back(
           described("missed", truth.furniture[i].type, truth.furniture[i].outline, truth.furniture[i].top_m));
-  return {scores.begin(), scores.end()};
+  return scores;
 }
-
-}  // namespace
 
 Task furniture_task(const FurnitureOptions& options) {
   return {"furniture",
@@ -107,9 +124,15 @@ Task furniture_task(const FurnitureOptions& options) {
            {"surroundings",
             {"to wall", "goes on", "floor beside", "wall beside", "higher beside", "step beside"}},
            {"whole", {"whole"}}},
-          [options](const TrainingRoom& known) { return furniture_samples(known, options); },
-          [options](const TrainingRoom& known, const Forest& forest) {
-            return score_furniture(find_furniture(known.cloud, known.room, forest, options), known.truth);
+          [options](const TrainingRoom& known) -> Evidence {
+            const auto candidates = std::make_shared<const FurnitureCandidates>(
+                furniture_candidates(known.cloud, known.room, options));
+            const auto score = [candidates, origin_m = known.cloud.origin_m, truth = known.truth,
+                                least = options.least_confidence](const Forest& forest) {
+              return score_furniture(judge_furniture(*candidates, origin_m, forest, least), truth);
+            };
+            return {known.truth.id, furniture_samples(known, *candidates),
+                    furniture_reach(known, *candidates), score};
           }};
 }
 

@@ -6,6 +6,7 @@
 
 #include "perception/models.h"
 #include "perception/occupancy.h"
+#include "perception/perceive.h"
 #include "perception/training.h"
 #include "perception/truth_match.h"
 
@@ -95,6 +96,18 @@ TEST_CASE("with all doors closed, only windows are found") {
   const auto found = found_in(known_rooms(office(), options, 0)[0]);
   CHECK(found.size() == 2);
   for (const OpeningObservation& opening : found) CHECK(opening.kind == "window");
+}
+
+TEST_CASE("a bare room with its door closed is perceived as one: nothing found is a result") {
+  Building bare = office();
+  bare.rooms[0].furniture.clear();
+  std::erase_if(bare.rooms[0].openings, [](const BuildingOpening& one) { return one.kind == "window"; });
+  SimulateOptions options;
+  options.doors_closed_share = 1;
+  const RoomObservation seen = perceive(known_rooms(bare, options, 0)[0].cloud, "bare").observation;
+  CHECK(seen.walls.size() == 4);
+  CHECK(seen.openings.empty());
+  CHECK(seen.furniture.empty());
 }
 
 TEST_CASE("an empty cloud or no walls give nothing") {
