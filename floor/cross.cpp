@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <random>
 
 #include "geometry/error.h"
+#include "geometry/random.h"
 #include "grammar/likelihood.h"
 #include "grammar/space.h"
 
@@ -31,12 +31,9 @@ std::vector<Interval> true_rooms(const KnownRow& row, double wall_m) {
   return rooms;
 }
 
-/// A standard normal number, the same on every machine (Box and Muller; std::normal_distribution differs
-/// between libraries).
 double normal(std::mt19937_64& generator) {
-  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
-  const double radius = std::sqrt(-2 * std::log(uniform()));
-  return radius * std::cos(2 * std::numbers::pi * uniform());
+  const double u = unit_interval(generator()) + 0x1p-54;  // never 0
+  return box_muller(u, unit_interval(generator()) + 0x1p-54);
 }
 
 /// `count` of `total` places, all choices alike.

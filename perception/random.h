@@ -2,9 +2,10 @@
 // standard library's differ from one implementation to the next).
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <string_view>
+
+#include "geometry/random.h"
 
 namespace gramap {
 
@@ -14,15 +15,13 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next() {
+    const std::uint64_t number = split_mix(state_);
     state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
+    return number;
   }
 
   /// Uniform in [0, 1).
-  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
+  double uniform() { return unit_interval(next()); }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
   /// Uniform in 0 … n−1; n > 0.
@@ -31,8 +30,8 @@ class Random {
 
   /// Standard normal (Box and Muller 1958).
   double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return radius * std::cos(2.0 * 3.141592653589793 * uniform());
+    const double u = 1 - uniform();
+    return box_muller(u, uniform());
   }
 
  private:
