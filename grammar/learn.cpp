@@ -26,7 +26,7 @@ std::string as_name(const std::string& text, const std::string& otherwise) {
     name += std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 128 ? c : '_';
   if (name.find_first_not_of('_') == std::string::npos) return otherwise;
   if (std::isdigit(static_cast<unsigned char>(name[0]))) name = otherwise + name;
-  if (is_keyword(name) || is_among(kUnits, name) || name == "Unknown" || name == "x" || name == "y")
+  if (is_keyword(name) || is_among(units(), name) || name == "Unknown" || name == "x" || name == "y")
     name += "_";
   return name;
 }

@@ -47,7 +47,7 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
   if ((which == "a name" || which == "a statement") && is_keyword(token.text))
     return "`" + token.text + "` is a word of the language; choose another name";
   if (which == "`:`" && second) {
-    const std::string near = nearest(statement->text, {kStatementWords.begin(), kStatementWords.end()});
+    const std::string near = nearest(statement->text, {statement_words().begin(), statement_words().end()});
     if (!near.empty()) return "did you mean `" + near + "`?";
     if (token.text == "->" || token.text == "<")
       return "a rule begins with a name of its own: `" + statement->text + "_row: " + statement->text +
@@ -81,7 +81,7 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
   if (which == "`{`" && token.text == "=")
     return "leave out the `=`: `" + statement->text + " " + (where - 1)->text + " { … }`";
   if (which == "a statement of the room" || which == "`}`") {
-    const std::string near = nearest(token.text, {kBlockWords.begin(), kBlockWords.end()});
+    const std::string near = nearest(token.text, {block_words().begin(), block_words().end()});
     if (!near.empty() && near != token.text) return "did you mean `" + near + "`?";
     if (which == "a statement of the room")
       return "a room says its `width`, `depth`, `door`, `windows`, `furniture`";
@@ -118,7 +118,7 @@ void report(State& state, Iterator statement, Iterator where, const std::string&
 /// True where a statement begins, as far as one token and its place tell.
 bool begins_statement(Iterator it, Iterator last) {
   if (!it->starts_line || it->kind != Token::Kind::name) return false;
-  if (is_among(kStatementWords, it->text)) return true;
+  if (is_among(statement_words(), it->text)) return true;
   return !is_keyword(it->text) && it + 1 != last && (it + 1)->text == ":";
 }
 
@@ -127,7 +127,7 @@ bool begins_statement(Iterator it, Iterator last) {
 Iterator resume(Iterator it, Iterator last) {
   int depth = 0;
   for (; it != last; ++it) {
-    if (begins_statement(it, last) || (it->starts_line && depth == 0 && is_among(kBlockWords, it->text)))
+    if (begins_statement(it, last) || (it->starts_line && depth == 0 && is_among(block_words(), it->text)))
       return it;
     if (it->text == "{" && it->kind == Token::Kind::symbol) ++depth;
     if (it->text == "}" && it->kind == Token::Kind::symbol && --depth < 0) return it;
@@ -214,7 +214,7 @@ struct Unit : x3::parser<Unit> {
              Attribute& attribute) const {
     if (!is_word(first, last) || first->starts_line || first->text == "x" || is_keyword(first->text))
       return false;
-    if (x3::get<StateTag>(context).in_straight && first->text != "%" && !is_among(kUnits, first->text))
+    if (x3::get<StateTag>(context).in_straight && first->text != "%" && !is_among(units(), first->text))
       return false;
     if (first->kind == Token::Kind::symbol && first->text != "%") return false;
     x3::traits::move_to(Token(*first), attribute);

@@ -8,10 +8,10 @@ int main() {
   const auto print = [](std::string_view word) {
     std::printf("\"%.*s\"\n", static_cast<int>(word.size()), word.data());
   };
-  for (const std::string_view word : gramap::kStatementWords) print(word);
-  for (const std::string_view word : gramap::kBlockWords) print(word);
-  for (const std::string_view word : gramap::kInnerWords) print(word);
-  for (const std::string_view word : gramap::kUnits) print(word);
+  for (const std::string_view word : gramap::statement_words()) print(word);
+  for (const std::string_view word : gramap::block_words()) print(word);
+  for (const std::string_view word : gramap::inner_words()) print(word);
+  for (const std::string_view word : gramap::units()) print(word);
   for (const char* symbol :
        {"->", "+-", "..", "<=", ">=", "==", "!=", "~", "|", "//", "%", "{ ", " }", "; ", ", ", " : "})
     print(symbol);

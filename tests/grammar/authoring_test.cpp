@@ -32,9 +32,9 @@ TEST_CASE("every complete example of the tutorial passes the check without a rem
 TEST_CASE("the highlighting knows the language's words") {
   const std::string text = read_file(GRAMAP_SOURCE_DIR "/rules/editor/gramap.tmLanguage.json");
   std::set<std::string> words;
-  for (const auto& word : kStatementWords) words.emplace(word);
-  for (const auto& word : kBlockWords) words.emplace(word);
-  for (const auto& word : kInnerWords) words.emplace(word);
+  for (const auto& word : statement_words()) words.emplace(word);
+  for (const auto& word : block_words()) words.emplace(word);
+  for (const auto& word : inner_words()) words.emplace(word);
   for (const std::string& word : words) {
     INFO(word);
     CHECK((text.find("|" + word + "|") != std::string::npos ||
