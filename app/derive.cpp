@@ -43,20 +43,23 @@ Space bare_space(const Options& options) {
   return space;
 }
 
-Space shifted(Space space, double up_m) {
+/// The space again, as the i-th sample, farther up in the picture.
+Space numbered(Space space, std::size_t i, double up_m) {
+  space.id += std::to_string(i + 1);
   for (Vec2& point : space.outline) point.y() += up_m;
   space.start.y() += up_m;
   space.end.y() += up_m;
   return space;
 }
 
-void print_tree(const RuleSet& rules, const Lattice& lattice, const Derivation& derivation) {
+void print_tree(const RuleSet& rules, const Derivation& derivation) {
   std::vector<bool> printed(derivation.tree.uses.size(), false);
-  std::size_t room = 0;
-  for (std::size_t i = 0; i < derivation.path.size(); ++i) {
+  std::vector<int> made_by;
+  for (const std::vector<int>& element : derivation.tree.rooms)
+    made_by.insert(made_by.end(), element.begin(), element.end());
+  for (std::size_t room = 0; room < derivation.rooms.size(); ++room) {
     std::vector<int> chain;
-    for (int use = derivation.tree.placed_by[i]; use >= 0;
-         use = derivation.tree.uses[static_cast<std::size_t>(use)].parent)
+    for (int use = made_by[room]; use >= 0; use = derivation.tree.uses[static_cast<std::size_t>(use)].parent)
       chain.insert(chain.begin(), use);
     for (std::size_t depth = 0; depth < chain.size(); ++depth) {
       const auto use = static_cast<std::size_t>(chain[depth]);
@@ -66,17 +69,12 @@ void print_tree(const RuleSet& rules, const Lattice& lattice, const Derivation& 
       std::printf("%*s%s: %s\n", static_cast<int>(2 * depth), "", rule.name.c_str(),
                   rules.symbols[static_cast<std::size_t>(rule.symbol)].c_str());
     }
-    const Arc& arc = lattice.arcs(derivation.path[i].state,
-                                  derivation.path[i].cell)[static_cast<std::size_t>(derivation.path[i].arc)];
-    const std::size_t count = lattice.row().elements[static_cast<std::size_t>(arc.element)].rooms.size();
-    for (std::size_t k = 0; k < count; ++k, ++room) {
-      const PlacedRoom& placed = derivation.rooms[room];
-      std::printf("%*s%s at %.3f m, %.3f m wide", static_cast<int>(2 * chain.size()), "", placed.type.c_str(),
-                  placed.start_m, placed.width_m);
-      if (placed.depth_m >= 0)
-        std::printf(", %.3f m to %.3f m deep", placed.depth_start_m, placed.depth_start_m + placed.depth_m);
-      std::printf("\n");
-    }
+    const PlacedRoom& placed = derivation.rooms[room];
+    std::printf("%*s%s at %.3f m, %.3f m wide", static_cast<int>(2 * chain.size()), "", placed.type.c_str(),
+                placed.start_m, placed.width_m);
+    if (placed.depth_m >= 0)
+      std::printf(", %.3f m to %.3f m deep", placed.depth_start_m, placed.depth_start_m + placed.depth_m);
+    std::printf("\n");
   }
 }
 
@@ -157,7 +155,10 @@ int run(const Options& options) {
   }
 
   FILE* const out = options.svg == "-" ? stderr : stdout;
-  std::vector<DerivedSpace> picture;
+  FloorGroundTruth pictured = floor;  // with a space for each sample of a length
+  if (options.floor.empty()) pictured.spaces.clear();
+  std::vector<SpaceProblem> pictured_problems;
+  std::vector<SpaceFit> pictured_layouts;
   double height_m = kBetweenSamples_m;
   for (const Space& space : floor.spaces)
     for (const Vec2& p : space.outline)
@@ -169,23 +170,31 @@ int run(const Options& options) {
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       if (options.text) {
         std::printf("%s%s, sample %zu\n", i + s == 0 ? "" : "\n", problems[s].id.c_str(), i + 1);
-        print_tree(rules, deriver.lattice(), drawn[i]);
+        print_tree(rules, drawn[i]);
       } else if (!options.stats) {
         std::fprintf(out, "%s:", problems[s].id.c_str());
         for (const PlacedRoom& room : drawn[i].rooms)
           std::fprintf(out, " %s %.2f", room.type.c_str(), room.width_m);
         std::fprintf(out, "\n");
       }
-      if (!options.svg.empty() && (options.floor.empty() || i == 0))
-        picture.push_back({shifted(floor.spaces[s], -height_m * static_cast<double>(i)), problems[s].length_m,
-                           problems[s].depth_m, drawn[i].rooms});
+      if (options.svg.empty() || (!options.floor.empty() && i > 0)) continue;
+      if (options.floor.empty())
+        pictured.spaces.push_back(numbered(floor.spaces[s], i, -height_m * static_cast<double>(i)));
+      pictured_problems.push_back(problems[s]);
+      pictured_layouts.emplace_back().best.rooms = drawn[i].rooms;
     }
     if (options.stats) {
       if (problems.size() > 1) std::printf("%s\n", problems[s].id.c_str());
       print_statistics(rules, deriver, drawn);
     }
   }
-  if (!options.svg.empty()) write_file(options.svg, derivation_svg(picture, floor.hallways));
+  if (!options.svg.empty()) {
+    FittedFloor fitted = floor_of_layouts(pictured, rules, pictured_problems, pictured_layouts);
+    if (options.no_facade)
+      for (FittedRoom& room : fitted.rooms)
+        std::erase_if(room.openings, [](const FittedOpening& opening) { return opening.kind == "window"; });
+    write_file(options.svg, derivation_svg(fitted));
+  }
   return kDone;
 }
 

@@ -1,23 +1,13 @@
-// Derived layouts as a picture: rooms in their spaces, coloured by type.
+// Derived layouts as a picture: rooms in their spaces, coloured by type, with their doors and windows.
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "floor/ground_truth.h"
-#include "grammar/space.h"
+#include "floor/fitted_floor.h"
 
 namespace gramap {
 
-/// A space with the rooms that were derived for it.
-struct DerivedSpace {
-  Space space;
-  double length_m = 0;
-  double depth_m = 0;
-  std::vector<PlacedRoom> rooms;
-};
-
-/// An SVG at 20 units a metre, plan coordinates up. `hallways` are drawn, too.
-std::string derivation_svg(const std::vector<DerivedSpace>& spaces, const std::vector<Hallway>& hallways);
+/// An SVG at 20 units a metre, plan coordinates up.
+std::string derivation_svg(const FittedFloor& floor);
 
 }  // namespace gramap

@@ -233,6 +233,15 @@ void report_unused(Resolver& r) {
   }
 }
 
+/// A derivation can begin: the start symbol is known, and some rule replaces it.
+bool has_start(const Resolver& r) {
+  return std::any_of(r.file.settings.begin(), r.file.settings.end(), [&](const Setting& setting) {
+    return setting.word == "start" && !r.rooms.contains(setting.name.text) &&
+           std::any_of(r.rules.rules.begin(), r.rules.rules.end(),
+                       [](const Rule& rule) { return rule.symbol == 0; });
+  });
+}
+
 }  // namespace
 
 CheckedRules check_rules(std::string_view text, const std::string&) {
@@ -244,9 +253,7 @@ CheckedRules check_rules(std::string_view text, const std::string&) {
   resolve_afters(r);
   resolve_hallways(r);
   report_unused(r);
-  const auto is_error = [](const Diagnostic& d) { return d.severity == Severity::error; };
-  if (file.diagnostics.empty() && std::none_of(r.diagnostics.begin(), r.diagnostics.end(), is_error))
-    check_statically(r);
+  if (has_start(r)) check_statically(r, text);
 
   CheckedRules checked;
   checked.diagnostics = file.diagnostics;
@@ -256,11 +263,13 @@ CheckedRules check_rules(std::string_view text, const std::string&) {
                      return std::pair(a.span.begin, a.span.end) < std::pair(b.span.begin, b.span.end);
                    });
   const auto same = [](const Diagnostic& a, const Diagnostic& b) {
-    return a.code == b.code && a.span.begin == b.span.begin && a.span.end == b.span.end;
+    return a.code == b.code && a.span.begin == b.span.begin && a.span.end == b.span.end &&
+           a.message == b.message;
   };
   checked.diagnostics.erase(std::unique(checked.diagnostics.begin(), checked.diagnostics.end(), same),
                             checked.diagnostics.end());
-  const bool sound = std::none_of(checked.diagnostics.begin(), checked.diagnostics.end(), is_error);
+  const bool sound = std::none_of(checked.diagnostics.begin(), checked.diagnostics.end(),
+                                  [](const Diagnostic& d) { return d.severity == Severity::error; });
   if (sound) checked.rules = std::move(r.rules);
   return checked;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/error.h"
+#include "geometry/random.h"
 #include "grammar/evidence.h"
 #include "grammar/explanation.h"
 #include "grammar/fillable.h"
@@ -12,15 +13,9 @@
 namespace gramap {
 namespace {
 
-/// A number in [0, 1) from counters: SplitMix64's finalizer (Steele, Lea, Flood 2014) over both.
+/// A number in [0, 1) from counters.
 double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t step) {
-  const auto mix = [](std::uint64_t z) {
-    z += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-  };
-  return static_cast<double>(mix(mix(mix(seed) + sample) + step) >> 11) * 0x1p-53;
+  return unit_interval(split_mix(split_mix(split_mix(seed) + sample) + step));
 }
 
 /// The edges that leave one node, ready to be drawn from.
@@ -177,6 +172,8 @@ DerivationStatistics exact_statistics(const RuleSet& rules, const SpaceDeriver& 
             const double clear_m = lattice.grid().width_m(move.first_cell + i * move.stride - cell);
             for (const DerivationStep& step : arcs[arc].steps)
               if (step.rule >= 0) statistics.rules[static_cast<std::size_t>(step.rule)] += p;
+            for (const InnerUse& use : element.uses)
+              statistics.rules[static_cast<std::size_t>(use.rule)] += p;
             for (const ElementRoom& room : element.rooms) {
               const std::size_t type = room.type < 0 ? types - 1 : static_cast<std::size_t>(room.type);
               const double width = room.width.at(clear_m);

@@ -70,6 +70,8 @@ bool add_expected_uses(const RuleSet& rules, const SpaceProblem& problem, double
         probability *= before.value[node] * arc.probability;
         for (const DerivationStep& step : arc.steps)
           if (step.rule >= 0) uses[static_cast<std::size_t>(step.rule)] += probability;
+        for (const InnerUse& use : compiled.row.elements[static_cast<std::size_t>(arc.element)].uses)
+          uses[static_cast<std::size_t>(use.rule)] += probability;
       }
     });
   }

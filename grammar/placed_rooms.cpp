@@ -22,13 +22,14 @@ std::vector<PlacedRoom> placed_rooms(const RuleSet& rules, const Lattice& lattic
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double start = starts_m[i];
     const double end = i + 1 == path.size() ? length_m : starts_m[i + 1] - lattice.grid().wall_m;
+    std::size_t place = 0;
     for (const ElementRoom& inner : placed_element(lattice, path[i]).rooms) {
       PlacedRoom room;
       room.type = inner.type < 0 ? "Unknown" : rules.rooms[static_cast<std::size_t>(inner.type)].name;
       room.start_m = start + inner.start.at(end - start);
       room.width_m = is_whole(inner) ? end - start : inner.width.at(end - start);
       room.rule = rule_name(rules, inner.rule);
-      for (const int rule : rules_down_to(derivation, derivation.placed_by[i]))
+      for (const int rule : rules_down_to(derivation, derivation.rooms[i][place++]))
         room.rule_path.push_back(rule_name(rules, rule));
       if (room.rule_path.empty() || room.rule_path.back() != room.rule) room.rule_path.push_back(room.rule);
       room.depth_start_m = inner.depth_start_m;

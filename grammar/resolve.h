@@ -52,7 +52,8 @@ void resolve_hallways(Resolver& resolver);
 bool can_hold(const Condition& condition);
 
 /// Faults of the rules as a whole, once each is well formed: recursion that is no row, splits that never fill
-/// their scope, rules that are never applied.
-void check_statically(Resolver& resolver);
+/// their scope, rules that are never applied. Where the file has other errors, rules that they touch are
+/// passed over.
+void check_statically(Resolver& resolver, std::string_view text);
 
 }  // namespace gramap

@@ -55,8 +55,15 @@ class Body {
     if (term.word == "repeat") return append_repeat(term, row);
     if (term.word == "merge") return append_merge(term, row);
     if (term.word == "split" && term.name.text == "y") {
-      r_.error("E0504", term.span, "a `split y` needs to know how wide its unit is",
-               "put it into a `split x` with its width: `split x { 3.80 m : split y { … } }`");
+      if (!fills)
+        r_.error(
+            "E0504", term.span, "a `split y` needs to know how wide its unit is",
+            "give it its width, `split x { 3.80 m : split y { … } }`, or make it the whole of a rule, and "
+            "give the width where its symbol stands: `split x { 3.80 m : Unit }`");
+      Item unit;
+      unit.size.kind = Size::Kind::floating;
+      unit.size.value = 1;
+      append_split_across(term, std::move(unit), row);
       return;
     }
     for (const Part& part : term.parts) append_part(part, fills, row);
@@ -80,26 +87,26 @@ class Body {
     Item item;
     item.kind = Item::Kind::split;
     item.size = size;
-    if (term.word == "split" && term.name.text == "y") {
-      item.axis = Axis::across;
-      for (const Part& child : term.parts) append_across(child, item.children);
-    } else {
-      append(term, true, item.children);
-    }
+    if (term.word == "split" && term.name.text == "y") return append_split_across(term, std::move(item), row);
+    append(term, true, item.children);
     row.push_back(std::move(item));
   }
 
  private:
+  /// `item` has the split's size.
+  void append_split_across(const Term& term, Item item, std::vector<Item>& row) {
+    item.kind = Item::Kind::split;
+    item.axis = Axis::across;
+    for (const Part& child : term.parts) append_across(child, item.children);
+    row.push_back(std::move(item));
+  }
+
   void append_name(const Term& term, const Size& size, std::vector<Item>& row) {
     const std::optional<SymbolRef> ref = r_.reference(term.name);
     if (!ref) return;
     if (ref->kind == SymbolRef::Kind::room && size.kind == Size::Kind::own &&
         r_.rules.rooms[static_cast<std::size_t>(ref->index)].width.components.empty())
       need(term, "width");
-    if (ref->kind == SymbolRef::Kind::symbol && size.kind == Size::Kind::absolute)
-      r_.error("E0507", term.span,
-               "the symbol `" + term.name.text + "` takes what its rules make of it, not a size of its own",
-               "give the size to a room, or put the pieces into a `split x`: `6 m : split x { … }`");
     Item item;
     item.size = size;
     item.ref = *ref;
@@ -169,11 +176,12 @@ class Body {
     if (term.word.empty()) {
       const std::optional<SymbolRef> ref = r_.reference(term.name);
       if (!ref) return;
-      if (ref->kind != SymbolRef::Kind::room)
+      const bool is_room = ref->kind == SymbolRef::Kind::room;
+      if (!is_room && !part.size)
         r_.error("E0510", term.span,
-                 "inside a `split y` stand rooms and splits, and `" + term.name.text + "` is a symbol",
-                 "write the rooms themselves");
-      else if (!part.size && !r_.rules.rooms[static_cast<std::size_t>(ref->index)].depth)
+                 "inside a `split y` the symbol `" + term.name.text + "` needs to know how deep it is",
+                 "give its depth, or `~` for what is left: `~ : " + term.name.text + "`");
+      if (is_room && !part.size && !r_.rules.rooms[static_cast<std::size_t>(ref->index)].depth)
         need(term, "depth");
       item.ref = *ref;
     } else if (!part.size) {

@@ -49,33 +49,6 @@ int code(const SymbolRef& ref) {
   return ref.kind == SymbolRef::Kind::end ? kEnd : ref.index;
 }
 
-/// Symbols that can come back when they are rewritten.
-std::vector<bool> recursive_symbols(const RuleSet& rules) {
-  const std::size_t n = rules.symbols.size();
-  std::vector<std::vector<std::size_t>> leads_to(n);
-  const auto visit = [&](auto&& self, const Item& item, std::size_t from) -> void {
-    if (item.kind == Item::Kind::piece && item.ref.kind == SymbolRef::Kind::symbol)
-      leads_to[from].push_back(static_cast<std::size_t>(item.ref.index));
-    for (const Item& child : item.children) self(self, child, from);
-  };
-  for (const Rule& rule : rules.rules)
-    for (const Item& item : rule.body) visit(visit, item, static_cast<std::size_t>(rule.symbol));
-  std::vector<bool> recursive(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<bool> reached(n, false);
-    std::vector<std::size_t> open{i};
-    while (!open.empty() && !recursive[i]) {
-      const std::size_t from = open.back();
-      open.pop_back();
-      for (const std::size_t to : leads_to[from]) {
-        if (to == i) recursive[i] = true;
-        if (!reached[to]) reached[to] = true, open.push_back(to);
-      }
-    }
-  }
-  return recursive;
-}
-
 class Compiler {
  public:
   Compiler(const RuleSet& rules, const SpaceAttributes& space, std::vector<std::vector<bool>> classes)
@@ -287,7 +260,7 @@ class Compiler {
   }
 
   /// P(R), or P(Rj | the rule used last) where that rule speaks of one of the symbol's rules.
-  std::vector<double> weigh(const std::vector<int>& candidates, int symbol, int last_rule) const {
+  std::vector<double> weigh(const std::vector<int>& candidates, int symbol, int last_rule) {
     std::vector<double> weights;
     for (const int r : candidates) weights.push_back(rules_.rules[static_cast<std::size_t>(r)].probability);
     if (last_rule < 0) return weights;
@@ -296,6 +269,7 @@ class Compiler {
       return rules_.rules[static_cast<std::size_t>(named.first)].symbol == symbol;
     });
     if (!speaks) return weights;
+    for (const int r : candidates) row_.sequels.emplace(last_rule, r);
     double unnamed = 0;
     std::vector<bool> is_named(candidates.size(), false);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -370,6 +344,7 @@ class Compiler {
     std::vector<std::pair<int, double>> made;
     for (const UnitVariant& variant : unit_variants(rules_, space_, item, cell.rule)) {
       element.rooms = variant.rooms;
+      element.uses = variant.uses;
       made.push_back({static_cast<int>(row_.elements.size()), variant.probability});
       row_.elements.push_back(element);
     }
@@ -454,6 +429,32 @@ CompiledRow compile(const RuleSet& rules, const SpaceAttributes& space,
 }
 
 }  // namespace
+
+std::vector<bool> recursive_symbols(const RuleSet& rules) {
+  const std::size_t n = rules.symbols.size();
+  std::vector<std::vector<std::size_t>> leads_to(n);
+  const auto visit = [&](auto&& self, const Item& item, std::size_t from) -> void {
+    if (item.kind == Item::Kind::piece && item.ref.kind == SymbolRef::Kind::symbol)
+      leads_to[from].push_back(static_cast<std::size_t>(item.ref.index));
+    for (const Item& child : item.children) self(self, child, from);
+  };
+  for (const Rule& rule : rules.rules)
+    for (const Item& item : rule.body) visit(visit, item, static_cast<std::size_t>(rule.symbol));
+  std::vector<bool> recursive(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<bool> reached(n, false);
+    std::vector<std::size_t> open{i};
+    while (!open.empty() && !recursive[i]) {
+      const std::size_t from = open.back();
+      open.pop_back();
+      for (const std::size_t to : leads_to[from]) {
+        if (to == i) recursive[i] = true;
+        if (!reached[to]) reached[to] = true, open.push_back(to);
+      }
+    }
+  }
+  return recursive;
+}
 
 bool is_written_out(const Item& item, bool takes_rest) {
   const bool has_no_size =

@@ -8,7 +8,9 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grammar/condition.h"
@@ -35,11 +37,18 @@ inline constexpr double kDefaultTolerance_m = 0.01;
 struct ElementRoom {
   int type = kBackgroundType;  ///< into RuleSet::rooms
   int rule = -1;               ///< the rule that places it; -1: background
+  int use = -1;                ///< into Element::uses, when a rule inside the element places it
   Affine start{0, 0};
   Affine width{0, 1};
   double depth_start_m = 0;  ///< from the hallway wall
   double depth_m = -1;       ///< < 0: the whole depth
   bool at_hallway = true;
+};
+
+/// The use of a rule inside an element, where a symbol is given a scope of its own.
+struct InnerUse {
+  int rule = 0;
+  int parent = -1;  ///< into Element::uses; -1: the rule that the element stands in
 };
 
 /// One element of the row.
@@ -56,6 +65,7 @@ struct Element {
   Affine share;
   double share_sd_m = kDefaultTolerance_m;
   std::vector<ElementRoom> rooms;  ///< in the order in which they are reported; one, but for units
+  std::vector<InnerUse> uses;      ///< the rules that rewrote symbols inside a unit, parents first
 
   int first_type() const { return rooms.front().type; }
   /// The type of the room that ends the element at the hallway.
@@ -90,6 +100,8 @@ struct Row {
   /// Positions with the same class have the same conditions true.
   std::vector<int> position_class;
   std::vector<std::vector<std::vector<Arc>>> arcs;  ///< [state][position class]; state 0 is the start
+  /// What `after` blocks weighed: the rule used last, and a rule that competed behind it.
+  std::set<std::pair<int, int>> sequels;
   std::vector<double> accept;  ///< probability that the derivation ends in this state when the space is full
 };
 
@@ -97,6 +109,9 @@ struct Row {
 /// the row opened) rather than placed as one element. `takes_rest`: it is the last item of a row that has all
 /// that is left of the space.
 bool is_written_out(const Item& item, bool takes_rest);
+
+/// By symbol, whether it can come back when it is rewritten.
+std::vector<bool> recursive_symbols(const RuleSet& rules);
 
 /// Why rules cannot be turned into a row.
 struct RowFault {

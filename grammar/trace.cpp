@@ -98,9 +98,19 @@ class Replay {
 
 Trace trace(const RuleSet& rules, const Lattice& lattice, const std::vector<PathStep>& path) {
   Replay replay(rules);
-  for (const PathStep& step : path)
-    replay.trace_so_far().placed_by.push_back(
-        replay.place(lattice.arcs(step.state, step.cell)[static_cast<std::size_t>(step.arc)]));
+  for (const PathStep& step : path) {
+    const Arc& arc = lattice.arcs(step.state, step.cell)[static_cast<std::size_t>(step.arc)];
+    const Element& element = lattice.row().elements[static_cast<std::size_t>(arc.element)];
+    const int by = replay.place(arc);
+    Trace& made = replay.trace_so_far();
+    const int first = static_cast<int>(made.uses.size());
+    for (const InnerUse& inner : element.uses)
+      made.uses.push_back({inner.rule, inner.parent < 0 ? by : first + inner.parent});
+    made.placed_by.push_back(by);
+    made.rooms.emplace_back();
+    for (const ElementRoom& room : element.rooms)
+      made.rooms.back().push_back(room.use < 0 ? by : first + room.use);
+  }
   return replay.take();
 }
 

@@ -17,6 +17,7 @@ struct RuleUse {
 struct Trace {
   std::vector<RuleUse> uses;   ///< in the order of the derivation
   std::vector<int> placed_by;  ///< by path step, the use that placed it; -1: before any rule (background)
+  std::vector<std::vector<int>> rooms;  ///< by path step, for each room of its element, the use that made it
 };
 
 Trace trace(const RuleSet& rules, const Lattice& lattice, const std::vector<PathStep>& path);

@@ -114,7 +114,7 @@ class Expander {
     room.depth_start_m = frame.depth_start_m;
     room.depth_m = frame.depth_m;
     room.at_hallway = frame.depth_start_m <= 0;
-    return {{1, {room}}};
+    return {{1, {room}, {}}};
   }
 
   std::vector<UnitVariant> symbol(int index, const Frame& frame, int caller, int depth) const {
@@ -126,6 +126,8 @@ class Expander {
       const int id = static_cast<int>(r);
       if (rule.left || rule.right)
         fail(id, "contexts hold along the hallway only, and this rule is used inside a unit");
+      if (rule.after)
+        fail(id, "`after` speaks of what follows along the hallway, and this rule is used inside a unit");
       if (depends_on_length(rule.condition))
         fail(id, "a condition on the remaining length cannot be asked inside a unit");
       if (!holds(rule.condition, space_, 0)) continue;
@@ -140,11 +142,21 @@ class Expander {
       const Rule& rule = rules_.rules[static_cast<std::size_t>(r)];
       for (UnitVariant& variant : split(rule.body, Axis::along, frame, r, depth)) {
         variant.probability *= rule.probability / sum;
+        shift(variant.rooms, variant.uses, 1, -1);
+        variant.uses.insert(variant.uses.begin(), {r, -1});
         variants.push_back(std::move(variant));
       }
     }
     check_count(variants.size(), caller);
     return variants;
+  }
+
+  /// Renumbers uses, from `least` on: -1 stands for the use that all of them belong to.
+  static void shift(std::vector<ElementRoom>& rooms, std::vector<InnerUse>& uses, int by, int least) {
+    for (ElementRoom& room : rooms)
+      if (room.use >= least) room.use += by;
+    for (InnerUse& use : uses)
+      if (use.parent >= least) use.parent += by;
   }
 
   static void check_count(std::size_t count, int rule) {
@@ -227,7 +239,7 @@ class Expander {
       for (const Item* item : sequence.items) demands.push_back(demand(*item, axis, rule));
       const std::vector<Affine> sizes = fill(demands, rules_.inner_wall_m, rule);
       if (axis == Axis::across) check_depth(demands, sizes, frame, rule);
-      std::vector<UnitVariant> grown{{sequence.probability, {}}};
+      std::vector<UnitVariant> grown{{sequence.probability, {}, {}}};
       Frame at = frame;
       for (std::size_t i = 0; i < sizes.size(); ++i) {
         if (axis == Axis::along) {
@@ -251,10 +263,12 @@ class Expander {
     std::vector<UnitVariant> both;
     check_count(before.size() * after.size(), rule);
     for (const UnitVariant& a : before)
-      for (const UnitVariant& b : after) {
+      for (UnitVariant b : after) {
+        shift(b.rooms, b.uses, static_cast<int>(a.uses.size()), 0);
         both.push_back(a);
         both.back().probability *= b.probability;
         both.back().rooms.insert(both.back().rooms.end(), b.rooms.begin(), b.rooms.end());
+        both.back().uses.insert(both.back().uses.end(), b.uses.begin(), b.uses.end());
       }
     return both;
   }

@@ -129,8 +129,12 @@ void compare(const RuleSet& rules, double length_m, int samples) {
         cells += step.width;
       }
       REQUIRE(cells == lattice.grid().cells);
-      double end_m = 0;
-      for (const PlacedRoom& room : drawn.rooms) end_m = std::max(end_m, room.start_m + room.width_m);
+      double end_m = -rules.inner_wall_m;  // of the rooms at the hallway and the walls between them
+      for (const PlacedRoom& room : drawn.rooms) {
+        if (room.depth_m >= 0 && room.depth_start_m > 0) continue;
+        REQUIRE(std::abs(room.start_m - (end_m + rules.inner_wall_m)) < 1e-9);
+        end_m = room.start_m + room.width_m;
+      }
       REQUIRE(std::abs(end_m - length_m) < 1e-9);
       ++seen[pair];
       std::vector<int> count(uses.size());
@@ -174,6 +178,60 @@ void compare(const RuleSet& rules, double length_m, int samples) {
 }
 
 }  // namespace
+
+TEST_CASE("a symbol with a size is a unit whose rules compete for it") {
+  const CheckedRules checked = check_rules(
+      "grammar inn; wall inner 0.20 m, outer 0.30 m; room Bed { } room Bath { } room Hall { }\n"
+      "start Row;\n"
+      "row: Row -> split x { 3.60 m +- 5 cm : Unit, ~ : Row };\n"
+      "unit: Unit -> split y { 2 m : Front, ~ : Bed } : 0.75;\n"
+      "plain: Unit -> split x { ~ : Bed } : 0.25;\n"
+      "front: Front -> split x { 1.50 m : Bath, ~ : Hall };\n",
+      "inn");
+  REQUIRE(checked.rules);
+  SpaceProblem space;
+  space.id = "space";
+  space.length_m = 4 * 3.60 + 3 * 0.20;
+  space.depth_m = 6;
+  const SpaceDeriver deriver(*checked.rules, space, 0.01);
+  const DerivationStatistics exact = exact_statistics(*checked.rules, deriver);
+  const std::vector<double> uses{4, 3, 1, 3}, rooms{4, 3, 3};
+  for (std::size_t i = 0; i < uses.size(); ++i) CHECK(exact.rules[i] == doctest::Approx(uses[i]));
+  for (std::size_t i = 0; i < rooms.size(); ++i) CHECK(exact.rooms[i] == doctest::Approx(rooms[i]));
+  const auto drawn = deriver.draw(4000, 1);
+  std::vector<double> count(4);
+  for (const Derivation& one : drawn) {
+    for (const RuleUse& use : one.tree.uses) count[at(use.rule)] += 1.0 / 4000;
+    for (const PlacedRoom& room : one.rooms) {
+      const std::vector<std::string> path = room.type != "Bed"
+                                                ? std::vector<std::string>{"row", "unit", "front"}
+                                            : room.depth_m < 0 ? std::vector<std::string>{"row", "plain"}
+                                                               : std::vector<std::string>{"row", "unit"};
+      REQUIRE(room.rule_path == path);
+    }
+  }
+  for (std::size_t i = 0; i < uses.size(); ++i) CHECK(std::abs(count[i] - uses[i]) < 0.06);
+}
+
+TEST_CASE("shipped rules fill spaces of any length with rooms that they know") {
+  for (const auto& file : test::files_in(GRAMAP_SOURCE_DIR "/rules", ".grammar")) {
+    CAPTURE(file.string());
+    const RuleSet rules = *check_rules(read_file(file), file.string()).rules;
+    for (const bool facade : {true, false}) {
+      for (double length_m = 4; length_m < (facade ? 60 : 16); length_m += facade ? 1.93 : 0.77) {
+        CAPTURE(facade);
+        CAPTURE(length_m);
+        SpaceProblem space;
+        space.id = "space";
+        space.length_m = length_m;
+        space.depth_m = 7;
+        space.facade = facade;
+        const SpaceDeriver deriver(rules, space, 0.02);
+        CHECK(exact_statistics(rules, deriver).rooms.back() < 0.15);
+      }
+    }
+  }
+}
 
 TEST_CASE("rules and neighbours show in samples as often as they should") {
   const char* wish = std::getenv("GRAMAP_DERIVE_SAMPLES");

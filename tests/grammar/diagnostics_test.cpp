@@ -89,6 +89,26 @@ TEST_CASE("faults of all kinds in one file are all found in one run") {
                                                 "E0101", "E0001", "E0001"});
 }
 
+TEST_CASE("a fault does not hide those behind it") {
+  const std::string rooms = "room Cell { width 2.80 m +- 5 cm; }\nroom Bath { width 1.60 m +- 5 cm; }\n";
+  const std::string rules =
+      "never: Space -> split x { 6 m : split x { Cell, Bath } } Rest;\n"
+      "wrong: Rest -> Rest Cell;\n"
+      "unit: Rest -> split x { 4 m : Unit } Rest;\n"
+      "asks: Unit : length > 3 m -> split x { ~ : Cell };\n"
+      "deep: Unit -> split y { 4 m : Nook, ~ : Cell };\n"
+      "nook: Nook -> Bath Nook Bath;\n";
+  const std::string start = "grammar t;\nstart Space;\n";
+  CHECK(codes(start + rooms + rules) == std::vector<std::string>{"E0702", "E0701", "E0701", "E0701"});
+  // Nor does one of another kind: what names something unknown is passed over, the rest is looked at.
+  CHECK(codes(start + rooms + "typo: Space -> Cel Space;\n" + rules) ==
+        std::vector<std::string>{"E0201", "E0702", "E0701", "E0701", "E0701"});
+  CHECK(
+      codes(start +
+            "let a = b;\nroom Hall { width a; }\nhall: Space -> split x { 2 m : split x { Hall } } Space;\n" +
+            rooms + rules) == std::vector<std::string>{"E0202", "E0702", "E0701", "E0701", "E0701"});
+}
+
 TEST_CASE("a newcomer's twelve mistakes get twelve messages, each with what to write instead") {
   const auto diagnostics = check_rules(read_file(kFolder / "newcomer.grammar"), "t").diagnostics;
   CHECK(diagnostics.size() == 12);
