@@ -34,7 +34,7 @@ std::vector<std::string> complete_floor(FloorGroundTruth& floor, const RuleSet& 
   said.insert(said.end(), derived.begin(), derived.end());
   std::vector<Space> kept;
   for (const Space& space : floor.spaces) {
-    const SpaceProblem problem = bare_problem(space);
+    const SpaceProblem problem = bare_problem(floor, outer_m, space);
     if (can_fill(here, problem, problem.length_m, kGrid_m)) {
       kept.push_back(space);
       continue;

@@ -14,9 +14,13 @@ Polygon box(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
-/// The rooms' doors as a hallway shows them: on its own face of the wall between.
-void add_hallway_doors(FittedFloor& floor) {
+/// The rooms' doors as the other side shows them: on its own face of the wall between.
+void add_other_sides(FittedFloor& floor) {
   const double wall_m = floor.inner_wall_m;
+  std::vector<FittedRoom*> others;
+  for (auto* rooms : {&floor.hallways, &floor.rooms})
+    for (FittedRoom& room : *rooms) others.push_back(&room);
+  std::vector<std::pair<FittedRoom*, FittedOpening>> added;
   for (const FittedRoom& room : floor.rooms)
     for (const FittedOpening& door : room.openings) {
       if (door.kind != "door") continue;
@@ -24,14 +28,15 @@ void add_hallway_doors(FittedFloor& floor) {
       Vec2 through = wall_m * Vec2(along.y(), -along.x());
       const Vec2 middle = 0.5 * (door.a + door.b);
       if (contains(room.outline, middle + through)) through = -through;
-      for (FittedRoom& hallway : floor.hallways) {
-        if (distance_to_border(hallway.outline, middle + through) > 0.02) continue;
+      for (FittedRoom* other : others) {
+        if (distance_to_border(other->outline, middle + through) > 0.02) continue;
         FittedOpening same = door;
         same.a += through, same.b += through;
-        hallway.openings.push_back(same);
+        added.emplace_back(other, same);
         break;
       }
     }
+  for (auto& [room, door] : added) room->openings.push_back(std::move(door));
 }
 
 }  // namespace
@@ -71,7 +76,7 @@ FittedFloor drawn_floor(const FloorGroundTruth& floor, const RuleSet& rules, std
     layouts[i].best.rooms = std::move(drawn.rooms);
   }
   FittedFloor fitted = floor_of_layouts(floor, rules, problems, layouts);
-  add_hallway_doors(fitted);
+  add_other_sides(fitted);
   return fitted;
 }
 

@@ -348,7 +348,8 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
   const Placement placement = place_observations(floor, observations, options.placement);
   set_aside.insert(set_aside.end(), placement.set_aside.begin(), placement.set_aside.end());
   std::vector<SpaceProblem> problems;
-  for (const Space& space : floor.spaces) problems.push_back(bare_problem(space));
+  const double outer_wall_m = rules_on_floor(rules, floor).outer_wall_m;
+  for (const Space& space : floor.spaces) problems.push_back(bare_problem(floor, outer_wall_m, space));
   for (const PlacedObservation& placed : placement.placed)
     if (placed.on == PlacedObservation::On::space)
       problems[static_cast<std::size_t>(placed.index)].rooms.push_back(placed.evidence);

@@ -5,15 +5,19 @@
 
 #include "floor/connect_rooms.h"
 #include "floor/derived_furniture.h"
+#include "floor/facade.h"
 #include "floor/hallway_doors.h"
+#include "floor/inner_doors.h"
 #include "floor/place.h"
 #include "geometry/polygon.h"
 
 namespace gramap {
 namespace {
 
-constexpr double kDoorHead_m = 2.1;  // of a door whose head nobody saw and no type says
-constexpr double kMargin_m = 0.05;   // least wall between an opening and the room's corner
+constexpr double kDoorHead_m = 2.1;    // of a door whose head nobody saw and no type says
+constexpr double kAtBorder_m = 0.05;   // a side that is no farther is one of its space
+constexpr double kAtHallway_m = 0.05;  // a room's side that is no farther lies on the reference line
+constexpr double kMargin_m = 0.05;     // least wall between an opening and the room's corner
 
 struct Edge {
   Vec2 a, b;
@@ -37,6 +41,11 @@ Edge hallway_edge(const FittedRoom& room, const Space& space) {
     if (edge.along().dot(along) > 0.9 && distance < nearest) nearest = distance, best = edge;
   }
   return best;
+}
+
+bool is_at_hallway(const FittedRoom& room, const Space& space) {
+  const Edge side = hallway_edge(room, space);
+  return distance_to_segment((side.a + side.b) / 2, space.start, space.end) < kAtHallway_m;
 }
 
 /// How well a way round agrees with what doors and windows mean: doors on the hallway's side, windows on
@@ -155,8 +164,8 @@ void derive_windows(FittedRoom& room, const Space& space, const RoomType& type, 
   for (std::size_t i = 0; i < room.outline.size(); ++i) {
     const Edge edge = edge_of(room.outline, i);
     if (edge.along().dot(along) > -0.9) continue;
-    const Vec2 beyond = (edge.a + edge.b) / 2 + edge.outward() * (1.5 * floor.outer_wall_m + 0.05);
-    if (!floor.floor.outline.empty() && contains(floor.floor.outline, beyond)) continue;
+    const bool is_inner = distance_to_border(space.outline, (edge.a + edge.b) / 2) > kAtBorder_m;
+    if (is_inner || !faces_outside(floor.floor, 1.5 * floor.outer_wall_m + 0.05, edge.a, edge.b)) continue;
     for (const WindowHabit& habit : type.windows) {
       const double room_for = edge.length_m() - 2 * kMargin_m - habit.width_m;
       if (room_for < 0) continue;
@@ -195,10 +204,12 @@ void furnish(FittedFloor& fitted, const RuleSet& rules, const std::vector<SpaceP
         derive_windows(room, space, *type, fitted);
         room.furniture = derived_furniture(room, hallway_edge(room, space).along(), type->furniture);
       }
-      if (!has_door(room)) add_hallway_doors(room, space, problems[s], type);
-      if (!has_door(room) && type && type->door) derive_door(room, space, *type->door);
+      if (!has_door(room) && is_at_hallway(room, space)) add_hallway_doors(room, space, problems[s], type);
+      if (!has_door(room) && type && type->door && is_at_hallway(room, space))
+        derive_door(room, space, *type->door);
     }
   }
+  add_inner_doors(fitted, rules);
   for (auto* given : {&fitted.hallways, &fitted.fixed})
     for (FittedRoom& room : *given)
       if (const RoomObservation* seen = observation_of(room))

@@ -4,18 +4,20 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <numbers>
 #include <random>
+#include <string>
 
 #include "floor/clear_area.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "geometry/random.h"
 #include "grammar/condition.h"
 
 namespace gramap {
 namespace {
 
 constexpr double kLeastStep_m = 0.5;  ///< a shorter straight is none
+constexpr std::size_t kMostRuns = 2000;
 constexpr double kTouch_m = 1e-6;
 constexpr double kInside_m = 0.01;
 constexpr double kMostSigmas = 2;
@@ -25,12 +27,12 @@ class Draws {
  public:
   explicit Draws(std::uint64_t seed) : engine_(seed) {}
 
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double uniform() { return unit_interval(engine_()); }
 
-  /// Box and Muller's, cut off so that no length comes out as nothing.
+  /// Cut off so that no length comes out as nothing.
   double normal(const Normal& of) {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    const double z = radius * std::cos(2 * std::numbers::pi * uniform());
+    const double u = 1 - uniform();
+    const double z = box_muller(u, uniform());
     return of.mean_m + of.sd_m * std::clamp(z, -kMostSigmas, kMostSigmas);
   }
 
@@ -278,7 +280,7 @@ class Grower {
 
   bool go_straight(int index, const HallwayModule& module) {
     Run& run = runs_[static_cast<std::size_t>(index)];
-    const double wish_m = module.to_end ? 0 : draws_.normal(module.length);
+    const double wish_m = module.to_end ? 0 : std::max(kLeastStep_m, draws_.normal(module.length));
     const double free_m = ahead_m(run, index);
     if (free_m < kLeastStep_m) return false;
     const bool leaves_a_row = free_m - wish_m >= room_m() + wall_m_;
@@ -290,6 +292,10 @@ class Grower {
     const bool to_left = module.kind == HallwayModule::Kind::left;
     std::optional<Plan> planned = plan(index, to_left, draws_.normal(grammar_.width));
     if (!planned) return;
+    if (runs_.size() >= kMostRuns)
+      throw InputError({},
+                       "the hallways' rules grow more than " + std::to_string(kMostRuns) + " hallways here",
+                       "let them branch less often, or make `width` and `depth` of the hallways larger");
     planned->run.body = &module.branch;
     planned->run.reserved_m = room_m();
     Run& parent = runs_[static_cast<std::size_t>(index)];

@@ -8,7 +8,7 @@
 // - A straight ends before an outer wall comes nearer than the least depth sideways, or another hallway
 // nearer than two
 //   rows of rooms sideways, one row ahead. Where it would leave less than one row of rooms, it goes on to the
-//   end.
+//   end. It is at least half a metre long.
 // - A branch is moved along its hallway to the middle of the wing that it leads into, where only one hallway
 // fits in
 //   there; else to the nearest place that leaves room for rooms. When it is the last thing that its hallway

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "floor/facade.h"
 #include "geometry/polygon.h"
 #include "geometry/say.h"
 
@@ -126,12 +127,13 @@ double clear_depth_m(const Space& space) {
   return depth;
 }
 
-SpaceProblem bare_problem(const Space& space) {
+SpaceProblem bare_problem(const FloorGroundTruth& floor, double outer_wall_m, const Space& space) {
   SpaceProblem problem;
   problem.id = space.id;
   problem.length_m = clear_length_m(space);
   problem.depth_m = clear_depth_m(space);
   problem.hallway = space.hallway;
+  problem.facade = has_facade(floor, outer_wall_m, space);
   return problem;
 }
 

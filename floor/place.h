@@ -52,6 +52,6 @@ double clear_length_m(const Space& space);
 double clear_depth_m(const Space& space);
 
 /// The space as a problem of the fit, before anything was observed in it.
-SpaceProblem bare_problem(const Space& space);
+SpaceProblem bare_problem(const FloorGroundTruth& floor, double outer_wall_m, const Space& space);
 
 }  // namespace gramap

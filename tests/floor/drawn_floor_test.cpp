@@ -2,8 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "floor/building.h"
+#include "floor/facade.h"
 #include "floor/fitted_geojson.h"
+#include "floor/verify.h"
 #include "geometry/error.h"
 #include "geometry/overlap.h"
 #include "geometry/polygon.h"
@@ -46,6 +50,48 @@ TEST_CASE("a floor drawn from rules fills its spaces, has doors, and differs by 
     for (std::size_t j = 0; j < i; ++j)
       CHECK(shared_area(building.rooms[i].outline, building.rooms[j].outline) < 1e-6);
   }
+}
+
+TEST_CASE("every room of a unit can be entered, and has windows where the outside is") {
+  const RuleSet rules =
+      *check_rules(
+           "grammar inn;\nwall inner 0.15 m, outer 0.3 m;\nroom Bed { door 0.90 x 2.10 m; "
+           "windows 1.60 x 1.50 m sill 0.60 m every 2.40 m; }\n"
+           "room Bath { windows 0.60 x 0.60 m sill 1.50 m every 1.00 m; }\nroom Hall { door 0.95 x 2.10 m; "
+           "}\n"
+           "start Row;\nrow: Row -> split x { 3.60 m +- 30 cm : Unit, ~ : Row };\n"
+           "unit: Unit -> split y { 2.20 m : split x { 1.70 m : Bath, ~ : Hall }, ~ : Bed };\n",
+           "inn")
+           .rules;
+  PlainFloorOptions options;
+  options.depth_m = 6.5;
+  const FittedFloor drawn = drawn_floor(plain_floor(rules, options), rules, 1);
+  CHECK(verify(build_model(drawn)).warnings.empty());
+  for (const FittedRoom& room : drawn.rooms) {
+    INFO(room.id, " ", room.type);
+    const auto count = [&](const std::string& kind) {
+      return std::count_if(room.openings.begin(), room.openings.end(),
+                           [&](const FittedOpening& opening) { return opening.kind == kind; });
+    };
+    CHECK(count("door") == (room.type == "Hall" ? 3 : 1));
+    CHECK((count("window") > 0) == (room.type == "Bed"));
+  }
+}
+
+TEST_CASE("a space has a façade where the outside or a courtyard lies behind it") {
+  const RuleSet rules = office_rules();
+  FloorGroundTruth floor = plain_floor(rules, {});
+  REQUIRE(floor.spaces.size() == 2);
+  for (const Space& space : floor.spaces) CHECK(has_facade(floor, rules.outer_wall_m, space));
+  // The building goes on to the north; in it, a courtyard.
+  for (Vec2& point : floor.outline)
+    if (point.y() > 0) point.y() += 10;
+  CHECK_FALSE(has_facade(floor, rules.outer_wall_m, floor.spaces[0]));
+  CHECK(has_facade(floor, rules.outer_wall_m, floor.spaces[1]));
+  floor.courtyards = {{{4, 7.4}, {12, 7.4}, {12, 12}, {4, 12}}};
+  CHECK(has_facade(floor, rules.outer_wall_m, floor.spaces[0]));
+  std::vector<SetAsideInput> set_aside;
+  for (const SpaceProblem& problem : space_problems(floor, rules, {}, {}, set_aside)) CHECK(problem.facade);
 }
 
 TEST_CASE("a floor without spaces cannot be drawn") {
