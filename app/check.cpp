@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -21,9 +22,13 @@ struct Lengths {
 /// "A..B" in metres.
 Lengths parse_lengths(const std::string& text) {
   Lengths lengths;
-  int read = 0;
-  const bool sound = std::sscanf(text.c_str(), "%lf..%lf%n", &lengths.least_m, &lengths.most_m, &read) == 2 &&
-                     read == static_cast<int>(text.size()) && lengths.least_m > 0 &&
+  const auto read = [](const std::string& number, double& value) {
+    const char* const end = number.data() + number.size();
+    return std::from_chars(number.data(), end, value).ptr == end && !number.empty();
+  };
+  const std::size_t dots = text.find("..");
+  const bool sound = dots != std::string::npos && read(text.substr(0, dots), lengths.least_m) &&
+                     read(text.substr(dots + 2), lengths.most_m) && lengths.least_m > 0 &&
                      lengths.most_m >= lengths.least_m && lengths.most_m <= 1000;
   if (!sound) throw CLI::ValidationError("--lengths", "write the shortest and the longest in metres: 3..40");
   return lengths;

@@ -78,6 +78,7 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
   if (which == "`{`" && token.kind == Token::Kind::name &&
       ((where - 1)->text == "left" || (where - 1)->text == "right"))
     return "a branch is a block: `" + (where - 1)->text + " { " + token.text + " }`";
+  if (which == "`as`") return "say which room the pieces become: `merge { … } as Hall`";
   if (which == "`{`" && token.text == "=")
     return "leave out the `=`: `" + statement->text + " " + (where - 1)->text + " { … }`";
   if (which == "a statement of the room" || which == "`}`") {

@@ -183,6 +183,8 @@ TEST_CASE("check --lengths names the lengths that nothing fills, as text and as 
   CHECK(has(json.out, "E0801"));
   CHECK(has(json.out, "no derivation fills spaces from"));
   CHECK(project.run("check" + file + "--lengths 2.8..2.8").code == 0);
+  CHECK(project.run("check" + file + "--lengths 3..6").code == 1);
+  CHECK(project.run("check" + file + "--lengths 3..").code == 2);
   CHECK(project.run("check" + file + "--lengths 2.8..2.8 --diagnostics=json").code == 0);
   CHECK(project.run("check" + file + "--lengths 9..3").code == 2);
 }
