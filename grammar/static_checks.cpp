@@ -270,11 +270,12 @@ std::set<int> doubtful_rules(const Resolver& r, std::string_view text) {
   for (const auto* known : {&r.rooms, &r.symbols})
     for (const auto& [name, index] : *known) doubtful.erase(name);
   for (const syntax::Let& let : r.file.lets) doubtful.erase(let.name.text);
+  std::set<std::size_t> errors;  // where they begin
+  for (const Diagnostic& diagnostic : r.diagnostics)
+    if (is_error(diagnostic)) errors.insert(diagnostic.span.begin);
   const auto has_doubt = [&](Span span) {
-    const bool faulty = std::any_of(r.diagnostics.begin(), r.diagnostics.end(), [&](const Diagnostic& d) {
-      return d.severity == Severity::error && span.begin <= d.span.begin && d.span.end <= span.end;
-    });
-    if (faulty) return true;
+    const auto error = errors.lower_bound(span.begin);
+    if (error != errors.end() && *error < span.end) return true;
     const Tokens tokens = tokenize(text.substr(span.begin, span.end - span.begin));
     return std::any_of(tokens.tokens.begin(), tokens.tokens.end(), [&](const Token& token) {
       return token.kind == Token::Kind::name && doubtful.contains(token.text);
