@@ -14,7 +14,7 @@ namespace gramap {
 namespace {
 
 constexpr double kFillSigmas = 5;
-constexpr int kMostFaults = 100;
+constexpr int kMostFaults = 20;
 constexpr int kDeepestUnit = 32;
 
 std::size_t at(int index) {
