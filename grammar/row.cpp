@@ -89,10 +89,20 @@ class Compiler {
   int push(Cell cell, int next) {
     cell.next = next;
     cell.length = next == 0 ? 1 : cells_[static_cast<std::size_t>(next)].length + 1;
-    if (cell.length > kLongestList) not_a_row(cell.rule);
+    if (cell.length > kLongestList) not_a_row(commonest_rule(next));
     const auto [place, is_new] = interned_.try_emplace(cell, static_cast<int>(cells_.size()));
     if (is_new) cells_.push_back(cell);
     return place->second;
+  }
+
+  /// The rule that has left most in a list: the one that makes it grow.
+  int commonest_rule(int list) const {
+    std::map<int, int> counts;
+    for (; list != 0; list = cells_[static_cast<std::size_t>(list)].next)
+      ++counts[cells_[static_cast<std::size_t>(list)].rule];
+    return std::max_element(counts.begin(), counts.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
   }
 
   /// The list after the first item of a cell of items.
