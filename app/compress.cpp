@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/fault.h"
 #include "app/scan_format.h"
 #include "app/verbs.h"
 #include "geometry/error.h"
@@ -131,23 +132,33 @@ int run(const Options& options) {
   std::vector<Row> rows;
   for (const double resolution : options.resolutions_m) rows.emplace_back().resolution_m = resolution;
   const std::vector<fs::path> folders = room_folders(options.folder);
+  const bool many = folders.size() > 1;
+  std::size_t bad = 0;
   for (const fs::path& folder : folders) {
-    const RoomScans scans = read_room_scans(folder, reading);
-    const fs::path to =
-        folders.size() > 1 ? fs::path(options.output) / folder.filename() : fs::path(options.output);
-    if (!options.output.empty()) make_folder(to);
+    const fs::path to = many ? fs::path(options.output) / folder.filename() : fs::path(options.output);
     std::error_code ignored;
     if (!options.output.empty() && fs::equivalent(to, folder, ignored))
       throw InputError({to.string()}, "the scans themselves are here: every scan would be there twice",
                        "write to another folder");
+    RoomScans scans;
+    try {
+      scans = read_room_scans(folder, reading);
+    } catch (const InputError& error) {
+      if (!many) throw;
+      print_fault(error);
+      ++bad;
+      continue;
+    }
+    if (!options.output.empty()) make_folder(to);
     RoomObservation before;
     const bool known = options.table && perceived(scans, before);
     for (std::size_t i = 0; i < rows.size(); ++i)
       compress_room(scans, options, to, !options.output.empty() && i == 0, known ? &before : nullptr,
                     rows[i]);
   }
+  if (bad == folders.size()) return kInputFault;
   print_rows(rows, options.table);
-  return kDone;
+  return bad ? kSetAside : kDone;
 }
 
 }  // namespace

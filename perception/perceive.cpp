@@ -37,6 +37,7 @@ class Stages {
 
 void run_stages(Perception& found, const std::string& room, const PerceptionOptions& options) {
   Stages stages(options);
+  found.observation.remarks = found.cloud.remarks;
   found.planes = detect_planes(found.cloud.points_m, options.hough);
   stages.end("planes");
   const double lean_rad = level(found.cloud, found.planes);

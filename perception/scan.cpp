@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <numbers>
+#include <tuple>
 
 #include "geometry/error.h"
 #include "geometry/file.h"
@@ -52,6 +53,25 @@ void check_unit(const Scan& scan) {
                 millimetres ? "millimetres" : "centimetres");
   throw InputError({scan.file.string()}, text,
                    std::string("convert the scan to metres, or say --unit ") + (millimetres ? "mm" : "cm"));
+}
+
+/// Leaves one file of each scan, in the order of their names; what is left out is said in `remarks`.
+void drop_other_formats(std::vector<fs::path>& files, std::vector<std::string>& remarks) {
+  const auto order = [](const fs::path& file) {
+    const bool compressed = file.extension() == ".gpc" || file.stem().extension() == ".gpc";
+    return std::tuple(stem_of(file), compressed, file.filename().string());
+  };
+  std::sort(files.begin(), files.end(),
+            [&](const fs::path& a, const fs::path& b) { return order(a) < order(b); });
+  std::vector<fs::path> kept;
+  for (fs::path& file : files) {
+    if (kept.empty() || stem_of(kept.back()) != stem_of(file))
+      kept.push_back(std::move(file));
+    else
+      remarks.push_back(file.filename().string() + " was not read: " + kept.back().filename().string() +
+                        " is the same scan");
+  }
+  files = std::move(kept);
 }
 
 Scan read_scan(const fs::path& file, const ReadOptions& options) {
@@ -131,9 +151,8 @@ RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
         {folder.string()}, "there are no scans here",
         "a room's folder holds scan000.xyz, scan000.pose, scan001.xyz, … (or .ply, .pcd, .3d, .gpc, "
         "each also .gz)");
-  std::sort(files.begin(), files.end());
-
   RoomScans room;
+  drop_other_formats(files, room.remarks);
   const fs::path named = folder.has_filename() ? folder : folder.parent_path();
   room.room = fs::is_regular_file(named, error) ? named.stem().string()
                                                 : fs::absolute(named).lexically_normal().filename().string();
@@ -153,6 +172,7 @@ RoomScans read_room_scans(const fs::path& folder, const ReadOptions& options) {
 
 RegisteredCloud registered(const RoomScans& scans) {
   RegisteredCloud cloud;
+  cloud.remarks = scans.remarks;
   std::size_t total = 0;
   for (const Scan& scan : scans.scans) {
     cloud.origin_m += scan.room_from_scanner.translation() / static_cast<double>(scans.scans.size());

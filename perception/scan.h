@@ -27,6 +27,7 @@ struct Scan {
 struct RoomScans {
   std::string room;  ///< the folder's name
   std::vector<Scan> scans;
+  std::vector<std::string> remarks;  ///< what a user should know: a file that was not read, …
 };
 
 struct ReadOptions {
@@ -36,7 +37,9 @@ struct ReadOptions {
 };
 
 /// Reads every scan of a room's folder, in the order of the file names; a folder of one file may be that file
-/// instead. Throws InputError for a folder without scans and for every fault of a file, with its place.
+/// instead. A scan that is there in several formats (scan000.xyz and scan000.gpc share scan000.pose) is read
+/// once, compressed only when there is nothing else. Throws InputError for a folder without scans and for
+/// every fault of a file, with its place.
 RoomScans read_room_scans(const std::filesystem::path& folder, const ReadOptions& options = {});
 
 /// The pose of 3DTK's six numbers as text. `name` is used in messages.
@@ -55,6 +58,7 @@ struct RegisteredCloud {
   Vec3 origin_m = Vec3::Zero();  ///< in the room's frame
   std::vector<Point> points_m;
   std::vector<Part> parts;  ///< one per scan
+  std::vector<std::string> remarks;
 };
 RegisteredCloud registered(const RoomScans& scans);
 

@@ -90,6 +90,23 @@ TEST_CASE("scans are read in order, with further columns, comments, Windows line
   CHECK((cloud.points_m[3].cast<double>() + cloud.origin_m - Vec3(-1.5, 2, 1.5)).norm() < 1e-6);
 }
 
+TEST_CASE("a scan that is there in several formats is read once, and the other files are named") {
+  const Folder folder;
+  folder.write("scan000.xyz", "1 2 3\n");
+  folder.write("scan000.gpc", "never read");
+  folder.write("scan000.xyz.gz", "never read");
+  folder.write("scan001.xyz", "4 5 6\n");
+  folder.write("scan000.pose", "0 100 0 0 0 0");
+  const RoomScans room = read_room_scans(folder.path);
+  REQUIRE(room.scans.size() == 2);
+  CHECK(room.scans[0].points_m == std::vector<Point>{Point(1, 2, 3)});
+  CHECK(room.scans[1].points_m == std::vector<Point>{Point(4, 5, 6)});
+  const std::vector<std::string> remarks{"scan000.xyz.gz was not read: scan000.xyz is the same scan",
+                                         "scan000.gpc was not read: scan000.xyz is the same scan"};
+  CHECK(room.remarks == remarks);
+  CHECK(registered(room).remarks == remarks);
+}
+
 TEST_CASE("lines longer than a piece of the file are read whole") {
   const Folder folder;
   std::string text;
