@@ -15,11 +15,12 @@ struct Stretch {
   double from, to;
 };
 
-/// The points of floor, ceiling and walls, chosen where the scans' corrections so far put them. Corners hold
-/// points of two planes, and are left out.
+/// The points of the first `levels` of floor and ceiling and of the walls, chosen where the scans'
+/// corrections so far put them. Corners hold points of two planes, and are left out.
 std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const RangeNoise& noise,
                                const std::vector<std::vector<Stretch>>& stretches, const Polygon& ring,
-                               const RegisteredCloud& cloud, const std::vector<Vec3>& scanners,
+                               std::uint32_t levels, const RegisteredCloud& cloud,
+                               const std::vector<Vec3>& scanners,
                                const std::vector<Eigen::Isometry3d>& corrections) {
   std::vector<PlanePoint> points;
   const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kMeasuredPoints);
@@ -41,7 +42,7 @@ std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const R
           }
         }
       } else {
-        for (std::uint32_t level = 0; level < 2; ++level)
+        for (std::uint32_t level = 0; level < levels; ++level)
           if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= band &&
               contains(ring, p.head<2>()))
             points.push_back({raw, sigma, part, level});
@@ -77,11 +78,11 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
       const WallLine& line = lines[l];
       AdjustedPlane wall;
       const Vec2 middle = (outline.ring[i] + outline.ring[(i + 1) % outline.ring.size()]) / 2;
-      wall.normal << line.normal, 0;
+      wall.normal = Vec3(line.normal.x(), line.normal.y(), line.lean).normalized();
       wall.u << line.direction(), 0;
-      wall.v = Vec3::UnitZ();
-      wall.middle << Vec2(middle - line.distance(middle) * line.normal),
-          (storey.floor_z_m + storey.ceiling_z_m) / 2;
+      wall.v = wall.u.cross(wall.normal);
+      if (wall.v.z() < 0) wall.v = -wall.v;
+      wall.middle << Vec2(middle - line.distance(middle) * line.normal), storey.middle_z_m();
       room.planes.push_back(wall);
     }
   }
@@ -108,7 +109,8 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
           {std::min(a, b) + shrink, std::max(a, b) - shrink});
     }
     const std::vector<PlanePoint> points =
-        gather(room.planes, noise, stretches, outline.ring, cloud, scanners, corrections);
+        gather(room.planes, noise, stretches, outline.ring, storey.ceiling_rise_m > 0 ? 1 : 2, cloud,
+               scanners, corrections);
     const std::vector<AdjustedPlane> before = room.planes;
     room.adjustment = adjust(room.planes, points, scanners);
     moved_m = 0;

@@ -1,5 +1,4 @@
 #include "perception/perceive.h"
-#include "perception/door_gaps.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +14,7 @@
 #include "perception/measure.h"
 #include "perception/models.h"
 #include "perception/narrow_faces.h"
+#include "perception/shape_remarks.h"
 #include "perception/storey.h"
 
 namespace gramap {
@@ -47,7 +47,7 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
                   lean_rad * 180 / std::numbers::pi);
     found.observation.remarks.push_back(text);
   }
-  found.storey = find_storey(found.planes, found.cloud, room, options.walls);
+  found.storey = find_storey(found.planes, found.cloud, room, options.walls, found.observation.remarks);
   for (PlanePatch& plane :
        find_hidden_walls(found.planes, found.cloud, found.storey, options.walls, options.hough))
     found.planes.push_back(std::move(plane));
@@ -94,6 +94,10 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
   seen.floor_z_m = found.storey.floor_z_m + origin.z();
   seen.ceiling_z_m = found.storey.ceiling_z_m + origin.z();
   measure_extent(seen, measured);
+  // Between its lowest and highest place a sloped ceiling is anywhere (a uniform distribution).
+  if (found.storey.ceiling_rise_m > 0) seen.height.sigma_m = found.storey.ceiling_rise_m / std::sqrt(12.0);
+  for (std::string& remark : remarks_on_shape(found.outline, found.walls))
+    seen.remarks.push_back(std::move(remark));
   seen.remarks.insert(seen.remarks.end(), found.outline.remarks.begin(), found.outline.remarks.end());
   stages.end("measures");
 }

@@ -8,18 +8,34 @@ namespace {
 
 constexpr std::size_t kEvidencePoints = 200000;
 
+/// A plane too oblique for an upright wall that yet spans most of the storey, as no piece of furniture does.
+bool leans(const PlanePatch& plane, const Storey& storey, const WallOptions& options) {
+  constexpr double kLeastArea_m2 = 1, kLeastShare = 0.6;
+  const double slope = std::abs(plane.normal.z());
+  if (slope <= options.vertical_epsilon || slope > options.most_lean || plane.area_m2 < kLeastArea_m2)
+    return false;
+  return (plane.rows - 2) * plane.cell_m * std::abs(plane.v.z()) >= kLeastShare * storey.height_m();
+}
+
 /// Vertical planes as lines; those of the same wall merged. The strongest plane gives the line: a weaker one
 /// whose whole length lies along it is a piece of the same wall, or the rim of its noise.
-std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const WallOptions& options) {
+std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const Storey& storey,
+                             const WallOptions& options) {
   std::vector<WallLine> lines;
   for (const PlanePatch& plane : planes) {
-    if (std::abs(plane.normal.z()) > options.vertical_epsilon) continue;
+    const bool leaning = leans(plane, storey, options);
+    if (std::abs(plane.normal.z()) > options.vertical_epsilon && !leaning) continue;
     const Vec3 middle = plane.corner + plane.v * (plane.rows * plane.cell_m / 2);
     const Vec2 begin = (middle + plane.u * plane.cell_m).head<2>();
     const Vec2 end = (middle + plane.u * ((plane.columns - 1) * plane.cell_m)).head<2>();
     WallLine line;
     line.normal = plane.normal.head<2>().normalized();
     line.rho_m = line.normal.dot((begin + end) / 2);
+    if (leaning) {
+      const double level = plane.normal.head<2>().norm();
+      line.lean = plane.normal.z() / level;
+      line.rho_m = (plane.rho_m - plane.normal.z() * storey.middle_z_m()) / level;
+    }
     line.rms_m = plane.rms_m;
     line.band_m = std::max(plane.band_m, 0.03);
     line.support = plane.support;
@@ -47,7 +63,7 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey&
     const Point& p = cloud.points_m[i];
     if (p.z() < bottom || p.z() > high) continue;
     const Vec2 plan(p.x(), p.y());
-    if (std::abs(line.distance(plan)) <= line.band_m)
+    if (std::abs(line.distance(p.cast<double>(), storey)) <= line.band_m)
       (p.z() < low ? under : places).push_back(direction.dot(plan));
   }
   line.wall.clear();
@@ -99,7 +115,7 @@ double WallLine::wall_share(const Vec2& a, const Vec2& b) const {
 
 std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
                                  const Storey& storey, const WallOptions& options) {
-  std::vector<WallLine> lines = merged(planes, options);
+  std::vector<WallLine> lines = merged(planes, storey, options);
   for (WallLine& line : lines) gather_evidence(line, cloud, storey, options);
   std::erase_if(lines, [&](const WallLine& line) {
     const auto columns = std::count(line.wall.begin(), line.wall.end(), 1);
