@@ -22,7 +22,8 @@ int run(Options options) {
   options.plan.fit = options.inputs.fit.space;
   options.plan.target_sigma_m = options.target_cm / 100;
   const ScanPlan plan = plan_scans(rules_on_floor(inputs.rules, inputs.floor), inputs.problems, options.plan);
-  std::printf("uncertainty %.2f, least certain wall ± %.1f cm\n", plan.uncertainty, 100 * plan.worst_sigma_m);
+  std::printf("uncertainty %.2f, least certain wall ± %.1f cm\n", plan.now.uncertainty,
+              100 * plan.now.worst_sigma_m);
   if (plan.done) {
     std::printf("done: all walls are within %.1f cm (1 sigma); no scan is needed\n", options.target_cm);
     return kDone;

@@ -12,6 +12,7 @@
 
 #include "floor/furnish.h"
 #include "floor/fuse.h"
+#include "floor/missed_wall.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
 #include "grammar/likelihood.h"
@@ -182,11 +183,6 @@ FittedFloor given_floor(const FloorGroundTruth& floor, const RuleSet& rules, dou
   return fitted;
 }
 
-/// ln of the probability of all that was observed in the space.
-double evidence_score(const SpaceFit& fit) {
-  return fit.best.score - std::log(fit.best.probability);
-}
-
 /// The fit of a space; when it has to set scans aside or read them unusually, also under the assumption that
 /// the building is not as exact as the rules (walls of unequal thickness, rooms askew), so that the widths of
 /// a row of scanned rooms need not add up to its length to the centimetre. The more probable of the readings
@@ -196,7 +192,7 @@ SpaceFit fit_forgiving(const RuleSet& rules, const SpaceProblem& problem, const 
     double sigma_m, prior;
   };
   constexpr Misfit kMisfits[] = {{0.02, 0.1}, {0.06, 0.02}};
-  SpaceFit best = fit_space(rules, problem, options);
+  SpaceFit best = with_missed_walls(rules, problem, options, fit_space(rules, problem, options));
   if (best.set_aside.empty() && best.reinterpreted.empty()) return best;
   double best_score = evidence_score(best);
   for (const Misfit& misfit : kMisfits) {
@@ -240,25 +236,33 @@ void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<Spa
   add_spaces(fitted, problems, fits);
 }
 
-/// ln p(evidence | rules, length) on a coarse grid, which is enough to choose between readings of a hallway;
+/// ln p(evidence, length | rules) on a coarse grid, which is enough to choose between readings of a hallway;
 /// minus infinity when the space can't be filled.
 double quick_likelihood(const RuleSet& rules, const SpaceProblem& problem, FitOptions options) {
   constexpr double coarse_m = 0.05;
   options.grid_m = std::max(options.grid_m, coarse_m);
   try {
-    return log_likelihood(rules, problem, options);
+    return log_joint(rules, problem, options);
   } catch (const InputError&) {
     return -std::numeric_limits<double>::infinity();
   }
 }
 
-/// The same of all spaces that the hallway shows doors of.
+/// The problem with what a hallway shows of its space.
+SpaceProblem with_shown(SpaceProblem problem, const SpaceProblem& shown) {
+  problem.doors.insert(problem.doors.end(), shown.doors.begin(), shown.doors.end());
+  problem.doors_visible.insert(problem.doors_visible.end(), shown.doors_visible.begin(),
+                               shown.doors_visible.end());
+  return problem;
+}
+
+/// The same of all spaces that the hallway shows the wall of.
 double score_of(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
-                const std::vector<SpaceProblem>& without, const FitOptions& options) {
+                const std::vector<SpaceProblem>& shown, const FitOptions& options) {
   double score = 0;
   for (std::size_t i = 0; i < problems.size(); ++i)
-    if (problems[i].doors_visible.size() != without[i].doors_visible.size())
-      score += quick_likelihood(rules, problems[i], options);
+    if (!shown[i].doors_visible.empty())
+      score += quick_likelihood(rules, with_shown(problems[i], shown[i]), options);
   return score;
 }
 
@@ -273,20 +277,20 @@ void add_doors(const FloorGroundTruth& floor, const RuleSet& rules,
     const auto index = static_cast<std::size_t>(placed.index);
     const Polygon& given = placed.on == PlacedObservation::On::hallway ? floor.hallways[index].outline
                                                                        : floor.fixed[index].outline;
-    std::vector<std::vector<SpaceProblem>> ways;
-    for (const PlanMotion& motion :
-         hallway_motions(hallway, given, !lies_on(hallway.outline, given, options.placement))) {
-      ways.push_back(problems);
-      add_door_evidence(floor, hallway, motion, ways.back(), options.doors);
-    }
-    if (ways.empty()) continue;
-    std::size_t best = 0;
+    const std::vector<PlanMotion> motions =
+        hallway_motions(hallway, given, !lies_on(hallway.outline, given, options.placement));
+    std::vector<SpaceProblem> best;
     double best_score = -std::numeric_limits<double>::infinity();
-    for (std::size_t way = 0; ways.size() > 1 && way < ways.size(); ++way) {
-      const double score = score_of(rules, ways[way], problems, options.space);
-      if (score > best_score) best_score = score, best = way;
+    for (const PlanMotion& motion : motions) {
+      std::vector<SpaceProblem> shown(problems.size());
+      add_door_evidence(floor, hallway, motion, shown, options.doors);
+      const double score = motions.size() > 1 ? score_of(rules, problems, shown, options.space) : 0;
+      if (score <= best_score && !best.empty()) continue;
+      best_score = score;
+      best = std::move(shown);
     }
-    problems = ways[best];
+    for (std::size_t i = 0; i < best.size(); ++i)
+      if (!best[i].doors_visible.empty()) problems[i] = with_shown(std::move(problems[i]), best[i]);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "floor/connect_rooms.h"
 #include "floor/derived_furniture.h"
@@ -185,16 +187,19 @@ void derive_windows(FittedRoom& room, const Space& space, const RoomType& type, 
 
 void furnish(FittedFloor& fitted, const RuleSet& rules, const std::vector<SpaceProblem>& problems,
              const std::vector<RoomObservation>& observations) {
+  std::map<std::string_view, const RoomObservation*> by_name;  // the first of each name
+  for (const RoomObservation& observation : observations) by_name.emplace(observation.room, &observation);
   const auto observation_of = [&](const FittedRoom& room) -> const RoomObservation* {
     if (room.scans.empty()) return nullptr;
-    const auto found = std::find_if(observations.begin(), observations.end(),
-                                    [&](const RoomObservation& o) { return o.room == room.scans.front(); });
-    return found == observations.end() ? nullptr : &*found;
+    const auto found = by_name.find(room.scans.front());
+    return found == by_name.end() ? nullptr : found->second;
   };
+  std::map<std::string_view, std::vector<FittedRoom*>> by_space;
+  for (FittedRoom& room : fitted.rooms) by_space[room.space].push_back(&room);
   for (std::size_t s = 0; s < fitted.floor.spaces.size(); ++s) {
     const Space& space = fitted.floor.spaces[s];
-    for (FittedRoom& room : fitted.rooms) {
-      if (room.space != space.id) continue;
+    for (FittedRoom* const in_space : by_space[space.id]) {
+      FittedRoom& room = *in_space;
       const auto found = std::find_if(rules.rooms.begin(), rules.rooms.end(),
                                       [&](const RoomType& t) { return t.name == room.type; });
       const RoomType* const type = found == rules.rooms.end() ? nullptr : &*found;

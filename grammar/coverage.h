@@ -35,12 +35,23 @@ struct SameRoom {
   double width_deviation_m = 0;
 };
 
+/// A wall of which it is asked how well its place is known: the cell where an element begins.
+struct SameWall {
+  int cell = 0;
+  /// Root mean square distance to the nearest wall, over all layouts.
+  double deviation_m = 0;
+};
+
 /// The rooms of a path, element by element, in the order of Element::rooms.
 std::vector<SameRoom> rooms_of(const Lattice& lattice, const std::vector<PathStep>& path);
 
-/// Also fills in the probabilities of `rooms`.
+/// The walls between the elements of a path, in order.
+std::vector<SameWall> walls_of(const std::vector<PathStep>& path);
+
+/// Also fills in the probabilities and deviations of `rooms` and the deviations of `walls` (in order).
 Coverage cover(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
-               const std::vector<double>& posteriors, std::span<SameRoom> rooms = {});
+               const std::vector<double>& posteriors, std::span<SameRoom> rooms = {},
+               std::span<SameWall> walls = {});
 
 /// For every room of the path (element by element, in the order of Element::rooms): the posterior probability
 /// that the room which covers its centre has its type; inside a unit, at its place across the space.

@@ -126,15 +126,26 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
             [](const DoorEvidence& a, const DoorEvidence& b) { return a.centre_m < b.centre_m; });
   for (DoorEvidence& door : doors_) door.sigma_m = std::sqrt(door.sigma_m * door.sigma_m + h * h / 12);
   for (const DoorEvidence& door : doors_) door_tables_.push_back(door_tables(door));
+  // Stretches may overlap; each counts.
+  std::vector<double> starts, ends;
+  for (const Stretch& stretch : problem.doors_visible) {
+    if (stretch.end_m <= stretch.start_m) continue;
+    starts.push_back(stretch.start_m);
+    ends.push_back(stretch.end_m);
+  }
+  std::sort(starts.begin(), starts.end());
+  std::sort(ends.begin(), ends.end());
+  std::size_t door = 0;
+  std::size_t started = 0;
+  std::size_t ended = 0;
+  double closed_m = 0;  // of the stretches that began or ended, ends - starts
   for (int n = 0; n <= grid.cells; ++n) {
     const double edge = n == grid.cells ? 1e9 : n == 0 ? -1e9 : grid.position_m(n) - 0.5 * grid.wall_m;
-    int before = 0;
-    for (const DoorEvidence& door : doors_) before += door.centre_m < edge ? 1 : 0;
-    doors_before_.push_back(before);
-    double seen = 0;
-    for (const Stretch& stretch : problem.doors_visible)
-      seen += std::max(0.0, std::min(edge, stretch.end_m) - stretch.start_m);
-    visible_.push_back(seen);
+    while (door < doors_.size() && doors_[door].centre_m < edge) ++door;
+    doors_before_.push_back(static_cast<int>(door));
+    while (started < starts.size() && starts[started] < edge) closed_m -= starts[started++];
+    while (ended < ends.size() && ends[ended] < edge) closed_m += ends[ended++];
+    visible_.push_back(started == ended ? closed_m : closed_m + edge * static_cast<double>(started - ended));
   }
 }
 

@@ -71,6 +71,16 @@ std::vector<PlacedRoom> place_rooms(const RuleSet& rules, const Lattice& lattice
   return placed;
 }
 
+/// The sequence may be another one altogether: a wall is no better known than the walls of all layouts are
+/// near to it.
+void hold_walls_to_all_layouts(const std::vector<SameWall>& walls, SequencePosterior& best) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    double& start = best.places[i + 1].start_sd_m;
+    start = std::max(start, walls[i].deviation_m);
+    best.places[i].end_sd_m = start;
+  }
+}
+
 void report_evidence(const SpaceProblem& problem, const Lattice& lattice,
                      const std::vector<std::vector<Explained>>& explained, SpaceFit& fit) {
   std::vector<bool> used(problem.rooms.size(), false);
@@ -164,7 +174,9 @@ SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitO
   std::vector<SequencePosterior> found;
   for (const auto& sequence : sequences) found.push_back(sequence_posterior(lattice, *sequence));
   std::vector<SameRoom> same = rooms_of(lattice, found.front().best);
-  const Coverage coverage = cover(lattice, before, behind, posteriors, same);
+  std::vector<SameWall> walls = walls_of(found.front().best);
+  const Coverage coverage = cover(lattice, before, behind, posteriors, same, walls);
+  hold_walls_to_all_layouts(walls, found.front());
   SpaceFit fit;
   for (std::size_t s = 0; s < sequences.size(); ++s) {
     const auto explained = explain(lattice, found[s].best);

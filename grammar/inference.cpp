@@ -56,13 +56,6 @@ double scale_behind(const Lattice& lattice, const NodeTable& table, int cell) {
   return is_in_range(std::exp(most - scale)) ? scale : most;
 }
 
-/// Whether all that a move leads to has this scale.
-bool has_one_scale(const NodeTable& table, const Move& move, double scale) {
-  for (int cell = move.first_cell; cell < move.last_cell(); cell += kScaleEvery)
-    if (table.log_scale[static_cast<std::size_t>(cell)] != scale) return false;
-  return table.log_scale[static_cast<std::size_t>(move.last_cell())] == scale;
-}
-
 /// Sum over the edges of an arc's emission of their weights times what comes after.
 double completion(const Lattice& lattice, Edges& edges, const NodeTable& table, int cell, int evidence_state,
                   const Arc& arc, double scale) {
@@ -82,6 +75,12 @@ double completion(const Lattice& lattice, Edges& edges, const NodeTable& table, 
 }
 
 }  // namespace
+
+bool has_one_scale(const NodeTable& table, const Move& move, double scale) {
+  for (int cell = move.first_cell; cell < move.last_cell(); cell += kScaleEvery)
+    if (table.log_scale[static_cast<std::size_t>(cell)] != scale) return false;
+  return table.log_scale[static_cast<std::size_t>(move.last_cell())] == scale;
+}
 
 double dot(const double* weights, const double* values, int stride, int count) {
   double sums[4] = {0, 0, 0, 0};  // in step, so that the compiler can use wide registers

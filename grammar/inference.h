@@ -80,6 +80,9 @@ inline constexpr double kDeadPosterior = 1e-30;
 /// Sum over all completions of each node that `forward` reaches.
 NodeTable backward(const Lattice& lattice, const NodeTable& forward);
 
+/// Whether all that a move leads to has this scale.
+bool has_one_scale(const NodeTable& table, const Move& move, double scale);
+
 /// Sum of weights x values of the nodes that a move leads to.
 double dot(const double* weights, const double* values, int stride, int count);
 

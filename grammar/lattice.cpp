@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kCoarseStep_m = 0.1;  // of rooms of any width, where no evidence asks for better
 constexpr double kFineSigmas = 4;      // what counts as near an evidence
+constexpr std::size_t kMostKeptValues = 16u << 20;  // of priors: 128 MB
+constexpr int kSmallGap = 4;                        // of cells that are not alive, too small to go round
 
 double cumulative(double u) {
   return 0.5 * std::erfc(-u / std::numbers::sqrt2);
@@ -153,6 +155,24 @@ Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence)
   for (std::size_t i = 1; i < reach_.size(); ++i) reach_[i] = std::max(reach_[i], reach_[i - 1]);
 }
 
+void Lattice::restrict(NodeMask mask) {
+  mask_ = std::move(mask);
+  next_alive_.clear();
+  kept_.clear();
+  last_.clear();
+  kept_values_ = 0;
+  if (mask_.alive.empty()) return;
+  const int n = grid_.cells;
+  next_alive_.assign(static_cast<std::size_t>(n) + 2, n + 1);
+  for (int cell = n; cell >= 0; --cell) {
+    const auto [first, last] = alive(cell);
+    bool any = false;
+    for (int e = first; e <= last && !any; ++e) any = is_alive(cell, e);
+    next_alive_[static_cast<std::size_t>(cell)] =
+        any ? cell : next_alive_[static_cast<std::size_t>(cell) + 1];
+  }
+}
+
 std::pair<int, double> Lattice::start() const {
   double weight = 1;
   int next = 0;
@@ -177,6 +197,11 @@ void Lattice::uniform_mass(const Element& element, int cell, std::vector<WidthMa
   const int coarse = std::max(1, static_cast<int>(std::lround(kCoarseStep_m / h)));
   const double fine = 1.0 / (last - first + 1);
   for (int begin = first; begin <= std::min(last, grid_.cells - cell); begin += coarse) {
+    const int ahead = next_alive(cell + begin) - cell - begin;
+    if (ahead >= coarse) {
+      begin += (ahead / coarse - 1) * coarse;
+      continue;
+    }
     const int stop = std::min(begin + coarse - 1, last);
     if (coarse > 1 && stop - begin + 1 == coarse && !needs_fine_steps(cell, begin, stop)) {
       const int middle = begin + (coarse - 1) / 2;
@@ -203,6 +228,97 @@ const std::vector<WidthMass>& Lattice::widths(int cell, int element, std::vector
   return made;
 }
 
+/// Likelihood of the doors seen in the element's hallway wall.
+double Lattice::doors(int cell, const Element& element, int width) const {
+  double likelihood = 1;
+  for (const ElementRoom& room : element.rooms) {
+    if (!room.at_hallway) continue;
+    const double clear_m = grid_.width_m(width);
+    const double start = room.start.at(clear_m);
+    const double end = start + room.width.at(clear_m) + grid_.wall_m;
+    const int first = std::clamp(static_cast<int>(std::lround(start / grid_.step_m)), 0, width);
+    const int last = std::clamp(static_cast<int>(std::lround(end / grid_.step_m)), first, width);
+    likelihood *= evidence_.doors(room.type, cell + first, cell + last);
+  }
+  return likelihood;
+}
+
+/// Adds the parts of the stretch that end where something is alive; returns how many values were made.
+std::size_t Lattice::add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const {
+  const Element& placed = row_.elements[static_cast<std::size_t>(element)];
+  const ElementRoom& room = placed.rooms.front();
+  const bool plain = placed.rooms.size() == 1 && room.at_hallway && room.start.constant == 0 &&
+                     room.start.slope == 0 && room.width.constant == 0 && room.width.slope == 1;
+  const auto cell_of = [&](int i) { return cell + stretch.first + i * stretch.stride; };
+  /// The first index from `i` on whose cell is alive.
+  const auto alive_from = [&](int i) {
+    while (i < stretch.count) {
+      const int ahead = next_alive(cell_of(i)) - cell_of(i);
+      if (ahead == 0) return i;
+      i += (ahead + stretch.stride - 1) / stretch.stride;
+    }
+    return stretch.count;
+  };
+  std::size_t made = 0;
+  for (int begin = alive_from(0); begin < stretch.count;) {
+    int end = begin + 1;
+    int next = alive_from(end);
+    while (next < stretch.count && next - end <= kSmallGap) {
+      end = next + 1;
+      next = alive_from(end);
+    }
+    Prior::Stretch part{stretch.first + begin * stretch.stride, stretch.stride, end - begin,
+                        stretch.mass + begin};
+    if (evidence_.has_doors()) {
+      std::vector<double>& seen = prior.seen.emplace_back(static_cast<std::size_t>(part.count), 0);
+      for (int i = 0; i < part.count; ++i) {
+        if (part.mass[i] <= 0) continue;
+        const int width = part.first + i * part.stride;
+        seen[static_cast<std::size_t>(i)] =
+            part.mass[i] *
+            (plain ? evidence_.doors(room.type, cell, cell + width) : doors(cell, placed, width));
+      }
+      made += seen.size();
+      part.mass = seen.data();
+    }
+    prior.stretches.push_back(part);
+    begin = next;
+  }
+  return made;
+}
+
+std::size_t Lattice::make_prior(int cell, int element, Prior& prior) const {
+  prior.stretches.clear();
+  prior.seen.clear();
+  const int rest = grid_.cells - cell;
+  std::size_t made = sizeof(Prior) / sizeof(double);
+  for (const WidthMass& mass : widths(cell, element, prior.made)) {
+    if (mass.first > rest) continue;
+    const int count = std::min(static_cast<int>(mass.mass.size()), (rest - mass.first) / mass.stride + 1);
+    made += add_stretch(cell, element, {mass.first, mass.stride, count, mass.mass.data()}, prior);
+  }
+  for (const WidthMass& mass : prior.made) made += mass.mass.size();
+  return made;
+}
+
+const Prior& Lattice::prior(int cell, int element) const {
+  const std::size_t elements = row_.elements.size();
+  if (kept_.empty()) kept_.resize((static_cast<std::size_t>(grid_.cells) + 1) * elements);
+  std::unique_ptr<Prior>& kept =
+      kept_[static_cast<std::size_t>(cell) * elements + static_cast<std::size_t>(element)];
+  if (kept != nullptr) return *kept;
+  if (kept_values_ < kMostKeptValues) {
+    kept = std::make_unique<Prior>();
+    kept_values_ += make_prior(cell, element, *kept);
+    return *kept;
+  }
+  last_.resize(elements);
+  LastPrior& last = last_[static_cast<std::size_t>(element)];
+  if (last.cell != cell) make_prior(cell, element, last.prior);
+  last.cell = cell;
+  return last.prior;
+}
+
 Extent element_extent(const Grid& grid, int cell, int width) {
   return {grid.position_m(cell), grid.position_m(cell) + grid.width_m(width)};
 }
@@ -227,47 +343,6 @@ double* Edges::store(int count) {
   std::vector<double>& buffer = buffers_[buffer_count_++];
   buffer.resize(static_cast<std::size_t>(count));
   return buffer.data();
-}
-
-/// Likelihood of the doors seen in the element's hallway wall.
-double Edges::doors(const Element& element, int width) const {
-  const Grid& grid = lattice_.grid();
-  double likelihood = 1;
-  for (const ElementRoom& room : element.rooms) {
-    if (!room.at_hallway) continue;
-    const double clear_m = grid.width_m(width);
-    const double start = room.start.at(clear_m);
-    const double end = start + room.width.at(clear_m) + grid.wall_m;
-    const int first = std::clamp(static_cast<int>(std::lround(start / grid.step_m)), 0, width);
-    const int last = std::clamp(static_cast<int>(std::lround(end / grid.step_m)), first, width);
-    likelihood *= lattice_.evidence().doors(room.type, cell_ + first, cell_ + last);
-  }
-  return likelihood;
-}
-
-const Edges::Prior& Edges::prior(int element) {
-  for (std::size_t i = 0; i < prior_count_; ++i)
-    if (priors_[i].element == element) return priors_[i];
-  if (prior_count_ == priors_.size()) priors_.emplace_back();
-  Prior& prior = priors_[prior_count_++];
-  prior.element = element;
-  prior.stretches.clear();
-  const int rest = lattice_.grid().cells - cell_;
-  for (const WidthMass& mass : lattice_.widths(cell_, element, prior.made)) {
-    if (mass.first > rest) continue;
-    Stretch stretch{mass.first, mass.stride, 0, mass.mass.data()};
-    stretch.count = std::min(static_cast<int>(mass.mass.size()), (rest - mass.first) / mass.stride + 1);
-    if (lattice_.evidence().has_doors()) {
-      const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
-      double* seen = store(stretch.count);
-      for (int i = 0; i < stretch.count; ++i)
-        seen[i] =
-            stretch.mass[i] > 0 ? stretch.mass[i] * doors(placed, stretch.first + i * stretch.stride) : 0;
-      stretch.mass = seen;
-    }
-    prior.stretches.push_back(stretch);
-  }
-  return prior;
 }
 
 /// Adds edges to the cells of a stretch; evidence that has passed by there is skipped.
@@ -394,7 +469,6 @@ const std::vector<Move>& Edges::moves(int cell, int element, int evidence_state)
     cell_ = cell;
     buffer_count_ = 0;
     known_count_ = 0;
-    prior_count_ = 0;
   }
   for (std::size_t i = 0; i < known_count_; ++i)
     if (known_[i].element == element && known_[i].evidence_state == evidence_state) return known_[i].moves;
@@ -406,7 +480,7 @@ const std::vector<Move>& Edges::moves(int cell, int element, int evidence_state)
 
   const Element& placed = lattice_.row().elements[static_cast<std::size_t>(element)];
   const int next = evidence_state / 2;
-  for (const Stretch& stretch : prior(element).stretches) {
+  for (const Stretch& stretch : lattice_.prior(cell, element).stretches) {
     if (evidence_state % 2 == 0) {
       add(known.moves, evidence_state, stretch, stretch.mass, -1);
       add_matches(known.moves, placed, stretch, next);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,20 @@ struct NodeMask {
   std::vector<std::vector<bool>> alive;  // [evidence state][cell - first cell of the state]
 };
 
+/// Widths of an element at a cell, with the likelihood of the doors: those that end where something is alive.
+struct Prior {
+  struct Stretch {
+    int first = 1;
+    int stride = 1;
+    int count = 0;
+    const double* mass = nullptr;
+  };
+  std::vector<Stretch> stretches;
+  std::vector<WidthMass> made;  ///< what the stretches point to, as far as it is not the same everywhere
+  std::vector<std::vector<double>> seen;  ///< and with doors
+};
+
+/// Not for several threads at once: what one pass has worked out is kept for the next.
 class Lattice {
  public:
   Lattice(const Row& row, const Grid& grid, const Evidence& evidence);
@@ -68,11 +83,16 @@ class Lattice {
   std::pair<int, int> alive(int cell) const { return alive_[static_cast<std::size_t>(cell)]; }
 
   /// Leaves out of every pass what the mask does not hold.
-  void restrict(NodeMask mask) { mask_ = std::move(mask); }
+  void restrict(NodeMask mask);
   bool is_alive(int cell, int evidence_state) const {
     const auto e = static_cast<std::size_t>(evidence_state);
     if (cell < first_cell_[e] || cell > last_cell_[e]) return false;
     return mask_.alive.empty() || mask_.alive[e][static_cast<std::size_t>(cell - first_cell_[e])];
+  }
+
+  /// The first cell from this one on at which any evidence state is alive; beyond the end when none is.
+  int next_alive(int cell) const {
+    return next_alive_.empty() ? cell : next_alive_[static_cast<std::size_t>(cell)];
   }
 
   std::size_t nodes() const { return nodes_; }
@@ -89,9 +109,12 @@ class Lattice {
                     [static_cast<std::size_t>(row_.position_class[static_cast<std::size_t>(cell)])];
   }
 
-  /// Masses of an element's widths when it is placed at a cell; they may reach beyond the end of the space.
-  /// `made` holds those that are not the same everywhere.
+  /// Masses of an element's widths when it is placed at a cell; they may reach beyond the end of the space,
+  /// and leave out widths that end where nothing is alive. `made` holds those that are not the same
+  /// everywhere.
   const std::vector<WidthMass>& widths(int cell, int element, std::vector<WidthMass>& made) const;
+  /// The prior of an element at a cell. Valid until the next call with another cell.
+  const Prior& prior(int cell, int element) const;
   /// Evidence is considered for rooms that start at this cell up to this one, exclusive.
   int reach(int cell) const { return reach_[static_cast<std::size_t>(cell)]; }
   /// The most cells that an edge spans.
@@ -102,6 +125,9 @@ class Lattice {
   std::pair<int, double> start() const;
 
  private:
+  std::size_t make_prior(int cell, int element, Prior& prior) const;
+  std::size_t add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const;
+  double doors(int cell, const Element& element, int width) const;
   void uniform_mass(const Element& element, int cell, std::vector<WidthMass>& made) const;
   bool needs_fine_steps(int cell, int first, int last) const;
 
@@ -118,9 +144,18 @@ class Lattice {
   std::vector<int> reach_;
   std::vector<std::size_t> offset_;
   std::size_t nodes_ = 0;
-  NodeMask mask_;  // empty: all
+  NodeMask mask_;                // empty: all
+  std::vector<int> next_alive_;  // [cell], to one beyond the end; empty: all are
   int longest_ = 0;
   int shortest_ = 1;
+
+  struct LastPrior {
+    int cell = -1;
+    Prior prior;
+  };
+  mutable std::vector<std::unique_ptr<Prior>> kept_;  // [cell * elements + element]
+  mutable std::size_t kept_values_ = 0;
+  mutable std::vector<LastPrior> last_;  // [element]; when there are too many to keep
 };
 
 /// The edges that leave a cell; made when asked for, kept until another cell is asked for.
@@ -138,21 +173,8 @@ class Edges {
     int evidence_state = 0;
     std::vector<Move> moves;
   };
-  /// Masses with the likelihood of the doors, not beyond the end of the space.
-  struct Stretch {
-    int first = 1;
-    int stride = 1;
-    int count = 0;
-    const double* mass = nullptr;
-  };
-  struct Prior {
-    int element = 0;
-    std::vector<WidthMass> made;
-    std::vector<Stretch> stretches;
-  };
+  using Stretch = Prior::Stretch;
 
-  const Prior& prior(int element);
-  double doors(const Element& element, int width) const;
   double* store(int count);
   bool weigh(const PreparedEvidence& e, const Element& element, const Stretch& widths, double* weights) const;
   void add(std::vector<Move>& moves, int evidence_state, const Stretch& sum, const double* max, int matched);
@@ -164,8 +186,6 @@ class Edges {
   std::size_t buffer_count_ = 0;
   std::deque<Known> known_;
   std::size_t known_count_ = 0;
-  std::deque<Prior> priors_;
-  std::size_t prior_count_ = 0;
 };
 
 /// Weight of evidence `e` belonging to the element when it takes `width` cells from `cell`: any of its rooms,

@@ -18,6 +18,13 @@ double log_sum(const RuleSet& rules, const Row& row, const Grid& grid, const Spa
 
 }  // namespace
 
+double log_joint(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
+  const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, options.grid_m);
+  const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
+  if (compiled.fault) throw InputError({}, "space " + problem.id + ": " + compiled.fault->message);
+  return log_sum(rules, compiled.row, grid, problem, options);
+}
+
 double log_likelihood(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
   const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, options.grid_m);
   const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);

@@ -12,6 +12,8 @@ using PrefixPtr = std::shared_ptr<const Prefix>;
 
 constexpr double kNegligible = 1e-16;  // share of a prefix below which its nodes are left out
 
+constexpr double kTolerated = 1e-10;  // share of a prefix that may escape those that dominate it
+
 class Search {
  public:
   Search(const Lattice& lattice, const NodeTable& forward, const NodeTable& backward,
@@ -106,14 +108,28 @@ class Search {
     group = std::move(kept);
   }
 
-  static bool dominates(const Prefix& a, const Prefix& b) {
+  /// Weight of completing a layout from a node, as a multiple of exp(reference).
+  double completion(const LayerNode& node, double reference) const {
+    const double scale = completions_.log_scale[static_cast<std::size_t>(node.cell)];
+    return completions_.value[node.node] * (scale == reference ? 1 : std::exp(scale - reference));
+  }
+
+  /// Whether `a` is no worse than `b` at every node, but for a share of `b` that no sequence it begins can
+  /// gain more than.
+  bool dominates(const Prefix& a, const Prefix& b) const {
     const double factor = std::exp(a.log_weight - b.log_weight);
+    const double reference = completions_.log_scale[static_cast<std::size_t>(b.layer.front().cell)];
+    double all = 0;
+    double excess = 0;
     auto at = a.layer.begin();
     for (const LayerNode& node : b.layer) {
       while (at != a.layer.end() && at->place() < node.place()) ++at;
-      if (at == a.layer.end() || at->place() != node.place() || at->sum * factor < node.sum) return false;
+      const bool met = at != a.layer.end() && at->place() == node.place();
+      const double weight = completion(node, reference);
+      all += weight * node.sum;
+      excess += weight * std::max(0.0, node.sum - (met ? at->sum * factor : 0));
     }
-    return true;
+    return excess <= kTolerated * all;
   }
 
   /// All prefixes that are one element longer; whole sequences among them go to `found_`. `only`: a look that
@@ -169,9 +185,7 @@ class Search {
     const double reference = completions_.log_scale[static_cast<std::size_t>(layer.front().cell)];
     const auto promise = [&](const LayerNode& node) {
       if (node.cell == lattice_.grid().cells) return node.sum;  // the end is accounted for
-      const double scale = completions_.log_scale[static_cast<std::size_t>(node.cell)];
-      return node.sum * completions_.value[node.node] *
-             (scale == reference ? 1 : std::exp(scale - reference));
+      return node.sum * completion(node, reference);
     };
     std::vector<double> promises;
     double all = 0;

@@ -6,7 +6,8 @@
 //
 // The search grows prefixes from the start of the line. The sum over all layouts that begin with a prefix is
 // known exactly (the prefix's own sums times the backward sums), and bounds all sequences that it begins: a
-// prefix below the worst sequence that is wanted is dropped, as is one that others dominate at every node.
+// prefix below the worst sequence that is wanted is dropped, as is one that others dominate at every node
+// (but for a share of 1e-10 of its own sum: no sequence that it begins can be better than theirs by more).
 #pragma once
 
 #include <memory>

@@ -58,7 +58,8 @@ struct PlacedRoom {
   std::string type;  ///< the room type's name; "Unknown" for the background room
   double start_m = 0;
   double width_m = 0;
-  /// Of the best layout's rooms: over all layouts, about this width; of alternatives': within the sequence.
+  /// Of the best layout's rooms: over all layouts, about this width and the nearest wall; of alternatives':
+  /// within the sequence.
   double width_sigma_m = 0;
   double start_sigma_m = 0;  ///< standard deviation of the wall before the room
   double end_sigma_m = 0;    ///< and behind it

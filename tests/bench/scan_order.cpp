@@ -1,6 +1,6 @@
 // Does following `gramap plan` need fewer scans? Starts with nothing scanned but the hallways (if any), scans
-// room after room until every wall is known to the target, choosing the next one as the plan says, in order,
-// or at random.
+// a first room drawn by the seed and then room after room until every wall is known to the target, choosing
+// the next one as the plan says, in order, or at random. Prints the three averages; progress on stderr.
 //
 //   scan_order FLOOR_FOLDER RULES [SEEDS] [TARGET_CM]
 #include <algorithm>
@@ -29,42 +29,75 @@ using Evidence = std::vector<std::vector<RoomEvidence>>;
 
 enum class Choice { plan, order, random };
 
-/// How many scans it takes until all walls are within the target.
-int scans_needed(const RuleSet& rules, const std::vector<SpaceProblem>& bare, const Evidence& evidence,
-                 Choice choice, unsigned seed, const ScanPlanOptions& options) {
-  std::mt19937 random(seed);
-  std::vector<SpaceProblem> problems = bare;
-  Evidence left = evidence;
-  for (int scans = 0;; ++scans) {
-    const ScanPlan plan = plan_scans(rules, problems, options);
-    std::size_t remaining = 0;
-    for (const auto& space : left) remaining += space.size();
-    if (plan.done || remaining == 0) return scans;
-    std::size_t space = 0, room = 0;
-    if (choice == Choice::plan && !plan.rooms.empty()) {
-      const ScanAdvice& advice = plan.rooms.front();
-      for (std::size_t i = 0; i < problems.size(); ++i)
-        if (problems[i].id == advice.space) space = i;
-      // Whoever follows the advice opens the door there, and scans the room that is really behind it.
-      const double middle = advice.start_m + advice.width_m / 2;
-      double nearest = 1e9;
-      for (std::size_t i = 0; i < left[space].size(); ++i) {
-        const double distance = std::abs(*left[space][i].centre_m - middle);
-        if (distance < nearest) nearest = distance, room = i;
+/// What is scanned, and what is known by it.
+class Walk {
+ public:
+  Walk(const RuleSet& rules, const std::vector<SpaceProblem>& bare, const Evidence& evidence, Choice choice,
+       const ScanPlanOptions& options)
+      : rules_(rules), problems_(bare), left_(evidence), choice_(choice), options_(options) {
+    plans_.resize(problems_.size());
+    for (std::size_t i = 0; i < problems_.size(); ++i) update(i);
+  }
+
+  /// How many scans it takes until all walls are within the target; the first room is drawn at random.
+  int scans_needed(unsigned seed) {
+    std::mt19937 random(seed);
+    for (int scans = 0;; ++scans) {
+      const ScanPlan plan = joined(plans_, options_);
+      std::size_t remaining = 0;
+      for (const auto& space : left_) remaining += space.size();
+      if (plan.done || remaining == 0) return scans;
+      if (scans == 0 || choice_ == Choice::random)
+        scan_number(random() % remaining);
+      else if (choice_ == Choice::order || !follow(plan))
+        scan_number(0);
+    }
+  }
+
+ private:
+  void update(std::size_t space) {
+    if (choice_ == Choice::plan)
+      plans_[space] = plan_space(rules_, problems_[space], options_);
+    else
+      plans_[space].now = certainty(rules_, problems_[space], options_);
+  }
+
+  void scan(std::size_t space, std::size_t room) {
+    problems_[space].rooms.push_back(left_[space][room]);
+    left_[space].erase(left_[space].begin() + static_cast<std::ptrdiff_t>(room));
+    update(space);
+  }
+
+  void scan_number(std::size_t number) {
+    std::size_t space = 0;
+    for (; number >= left_[space].size(); ++space) number -= left_[space].size();
+    scan(space, number);
+  }
+
+  /// Whoever follows the advice opens the door there, and scans the room that is really behind it.
+  bool follow(const ScanPlan& plan) {
+    for (const ScanAdvice& advice : plan.rooms) {
+      for (std::size_t space = 0; space < problems_.size(); ++space) {
+        if (problems_[space].id != advice.space || left_[space].empty()) continue;
+        const double middle = advice.start_m + advice.width_m / 2;
+        const auto distance = [&](const RoomEvidence& room) { return std::abs(*room.centre_m - middle); };
+        const auto nearest = std::min_element(
+            left_[space].begin(), left_[space].end(),
+            [&](const RoomEvidence& a, const RoomEvidence& b) { return distance(a) < distance(b); });
+        scan(space, static_cast<std::size_t>(nearest - left_[space].begin()));
+        return true;
       }
     }
-    if (choice == Choice::random || left[space].empty()) {
-      std::size_t pick = choice == Choice::random ? random() % remaining : 0;
-      for (space = 0; pick >= left[space].size(); ++space) pick -= left[space].size();
-      room = pick;
-    } else if (choice == Choice::order) {
-      for (space = 0; left[space].empty();) ++space;
-      room = 0;
-    }
-    problems[space].rooms.push_back(left[space][room]);
-    left[space].erase(left[space].begin() + static_cast<std::ptrdiff_t>(room));
+    return false;
   }
-}
+
+  const RuleSet& rules_;
+  std::vector<SpaceProblem> problems_;
+  Evidence left_;
+  Choice choice_;
+  ScanPlanOptions options_;
+  std::vector<ScanPlan> plans_;
+};
 
 int run(int argc, char** argv) {
   if (argc < 3) {
@@ -89,8 +122,9 @@ int run(int argc, char** argv) {
               [](const RoomEvidence& a, const RoomEvidence& b) { return *a.centre_m < *b.centre_m; });
   }
   std::printf(
-      "| scans until all walls are within %.0f cm (1 sigma) | by plan | in order | at random, %d seeds |\n| "
-      "--- | --- | --- | --- |\n",
+      "| scans until all walls are within %.0f cm (1 sigma), average of %d first rooms | by plan | in order "
+      "| "
+      "at random |\n| --- | --- | --- | --- |\n",
       100 * options.target_sigma_m, seeds);
   for (const bool hallways : {false, true}) {
     std::vector<SpaceProblem> bare = full;
@@ -98,12 +132,20 @@ int run(int argc, char** argv) {
       problem.rooms.clear();
       if (!hallways) problem.doors.clear(), problem.doors_visible.clear();
     }
-    double random = 0;
-    for (int seed = 1; seed <= seeds; ++seed)
-      random += scans_needed(rules, bare, evidence, Choice::random, static_cast<unsigned>(seed), options);
-    std::printf("| %s | %d | %d | %.1f |\n", hallways ? "hallways scanned before" : "nothing scanned before",
-                scans_needed(rules, bare, evidence, Choice::plan, 0, options),
-                scans_needed(rules, bare, evidence, Choice::order, 0, options), random / seeds);
+    double scans[3] = {};
+    for (int seed = 1; seed <= seeds; ++seed) {
+      for (const Choice choice : {Choice::plan, Choice::order, Choice::random}) {
+        const int needed =
+            Walk(rules, bare, evidence, choice, options).scans_needed(static_cast<unsigned>(seed));
+        scans[static_cast<int>(choice)] += needed;
+        std::fprintf(stderr, "%d ", needed);
+      }
+      std::fprintf(stderr, "(seed %d of %d)\n", seed, seeds);
+    }
+    std::printf("| %s | %.1f | %.1f | %.1f |\n",
+                hallways ? "hallways scanned before" : "nothing scanned before", scans[0] / seeds,
+                scans[1] / seeds, scans[2] / seeds);
+    std::fflush(stdout);
   }
   return 0;
 }

@@ -182,6 +182,22 @@ TEST_CASE("a cupboard front read as a wall leaves the floor right and is named")
   CHECK_MESSAGE(named(fitted, "b: "), room_table(fitted));
 }
 
+TEST_CASE("two rooms read as one stay two, and the scan is named, whichever they are and however posed") {
+  for (const std::size_t first : {0u, 2u, 3u})
+    for (const double off : {-0.3, -0.1, 0.0, 0.2, 0.35}) {
+      INFO("rooms ", kNames[first], " and ", kNames[first + 1], " as one, ", off, " m off");
+      Case made = all_scanned();
+      RoomObservation& seen = made.observations[first];
+      seen.width.value_m += kWall_m + kWidths[first + 1];
+      for (Vec2& point : seen.outline) point.x() += off;
+      seen.outline[1].x() = seen.outline[2].x() = seen.outline[0].x() + seen.width.value_m;
+      made.observations.erase(made.observations.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+      const FittedFloor fitted = fit(made);
+      check_true(fitted);
+      CHECK_MESSAGE(named(fitted, "it is two: a wall was missed"), room_table(fitted));
+    }
+}
+
 TEST_CASE("a scan filed under another room's name leaves the floor right and is named") {
   SUBCASE("a room's only scans are another room's") {
     Case made = all_scanned();

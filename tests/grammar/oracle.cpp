@@ -39,7 +39,7 @@ int type_or_end(const SymbolRef& ref) {
 class Oracle {
  public:
   Oracle(const RuleSet& rules, const SpaceProblem& problem, const Evidence& evidence, const Grid& grid,
-         long most, std::vector<OracleRoom>* wanted)
+         long most, OracleQuestions* wanted)
       : rules_(rules),
         space_{problem.depth_m, problem.hallway, problem.facade},
         evidence_(evidence),
@@ -380,7 +380,7 @@ class Oracle {
       sequence.w[i] += weight * w;
       sequence.ww[i] += weight * w * w;
       if (wanted_ != nullptr && placed_[i].rooms.size() == 1)
-        for (OracleRoom& room : *wanted_)
+        for (OracleRoom& room : wanted_->rooms)
           if (placed_[i].cell <= room.middle && room.middle < placed_[i].cell + placed_[i].width) {
             const int off = placed_[i].width - room.width;
             if (placed_[i].rooms[0].type == room.type && std::abs(off) <= room.tolerance)
@@ -392,6 +392,14 @@ class Oracle {
           result_.coverage[static_cast<std::size_t>(placed_[i].rooms[0].type + 1)]
                           [static_cast<std::size_t>(cell)] += weight;
     }
+    if (wanted_ != nullptr)
+      for (auto& [cell, square_cells] : wanted_->walls) {
+        int nearest = grid_.cells;
+        for (const Placed& element : placed_)
+          for (const int wall : {element.cell, element.cell + element.width})
+            nearest = std::min(nearest, std::abs(wall - cell));
+        square_cells += weight * nearest * nearest;
+      }
     result_.total += weight;
   }
 
@@ -400,7 +408,7 @@ class Oracle {
   const Evidence& evidence_;
   Grid grid_;
   long most_;
-  std::vector<OracleRoom>* wanted_;
+  OracleQuestions* wanted_;
   long tried_ = 0;
   std::vector<Placed> placed_;
   OracleResult result_;
@@ -410,7 +418,7 @@ class Oracle {
 
 std::optional<OracleResult> enumerate_layouts(const RuleSet& rules, const SpaceProblem& problem,
                                               const Evidence& evidence, const Grid& grid, long most,
-                                              std::vector<OracleRoom>* wanted) {
+                                              OracleQuestions* wanted) {
   return Oracle(rules, problem, evidence, grid, most, wanted).run();
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grammar/evidence.h"
@@ -36,9 +37,16 @@ struct OracleRoom {
   double square_cells = 0;  // weighted: how far the width of what covers the middle is off, squared
 };
 
+/// What is asked of the layouts beside their sums.
+struct OracleQuestions {
+  std::vector<OracleRoom> rooms;
+  /// Cells, and weighted: how far the nearest wall is from them, squared, in cells.
+  std::vector<std::pair<int, double>> walls;
+};
+
 /// None when there are more layouts than `most`.
 std::optional<OracleResult> enumerate_layouts(const RuleSet& rules, const SpaceProblem& problem,
                                               const Evidence& evidence, const Grid& grid, long most,
-                                              std::vector<OracleRoom>* wanted = nullptr);
+                                              OracleQuestions* wanted = nullptr);
 
 }  // namespace gramap::test

@@ -214,13 +214,17 @@ bool compare(std::uint64_t seed, int& longest) {
   const std::size_t count = std::min<std::size_t>(6, scores.size());
   REQUIRE(found.size() >= count);
   REQUIRE(!found.empty());
-  std::vector<SameRoom> alike = rooms_of(lattice, sequence_posterior(lattice, *found[0]).best);
-  const Coverage coverage = cover(lattice, before, behind, posteriors, alike);
-  std::vector<OracleRoom> like;
+  const std::vector<PathStep> best = sequence_posterior(lattice, *found[0]).best;
+  std::vector<SameRoom> alike = rooms_of(lattice, best);
+  std::vector<SameWall> walls = walls_of(best);
+  const Coverage coverage = cover(lattice, before, behind, posteriors, alike, walls);
+  OracleQuestions questions;
+  std::vector<OracleRoom>& like = questions.rooms;
+  for (const SameWall& wall : walls) questions.walls.emplace_back(wall.cell, 0.0);
   const int tolerance = static_cast<int>(std::lround(kSameWidth_m / grid.step_m));
   for (const SameRoom& room : alike)
     like.push_back({room.channel.type, room.middle, room.width, tolerance, 0, 0});
-  (void)enumerate_layouts(test.rules, test.problem, evidence, grid, kMostLayouts, &like);
+  (void)enumerate_layouts(test.rules, test.problem, evidence, grid, kMostLayouts, &questions);
   const bool any_unit = std::any_of(coverage.begin(), coverage.end(),
                                     [](const auto& channel) { return channel.first.depth_m >= 0; });
   for (std::size_t i = 0; i < alike.size(); ++i) {
@@ -230,6 +234,9 @@ bool compare(std::uint64_t seed, int& longest) {
       CHECK(std::abs(alike[i].width_deviation_m -
                      grid.step_m * std::sqrt(like[i].square_cells / truth->total)) < kClose);
   }
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    CHECK(std::abs(walls[i].deviation_m - grid.step_m * std::sqrt(questions.walls[i].second / truth->total)) <
+          kClose);
   for (std::size_t i = 0; i < count; ++i) {
     CHECK(std::abs(found[i]->log_weight - scores[i]) < kClose);
     CHECK(std::abs(std::exp(found[i]->log_posterior) - std::exp(scores[i]) / truth->total) < kClose);
