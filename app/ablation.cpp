@@ -26,7 +26,7 @@ void print_row(const std::string& variant, const Scores& scores) {
 
 }  // namespace
 
-Scores scores_of(const std::vector<Evidence>& rooms, const Forest& forest) {
+Scores scores_of(const std::vector<ForestEvidence>& rooms, const Forest& forest) {
   std::vector<Scores> each(rooms.size());
   tbb::parallel_for(std::size_t{0}, rooms.size(), [&](std::size_t i) { each[i] = rooms[i].score(forest); });
   Scores total;
@@ -38,9 +38,9 @@ Scores scores_of(const std::vector<Evidence>& rooms, const Forest& forest) {
   return total;
 }
 
-Scores reach_of(const std::vector<Evidence>& rooms) {
+Scores reach_of(const std::vector<ForestEvidence>& rooms) {
   Scores total;
-  for (const Evidence& room : rooms)
+  for (const ForestEvidence& room : rooms)
     for (auto [kind, score] : room.reach) {
       for (std::string& mistake : score.mistakes) mistake.insert(0, "room " + room.room + ": ");
       total[kind].add(score);
@@ -49,7 +49,7 @@ Scores reach_of(const std::vector<Evidence>& rooms) {
 }
 
 void print_ablation(const Task& task, const std::vector<Sample>& train, const ForestOptions& options,
-                    const std::vector<std::pair<std::string, std::vector<Evidence>>>& sets,
+                    const std::vector<std::pair<std::string, std::vector<ForestEvidence>>>& sets,
                     const std::vector<Condition>& conditions) {
   std::vector<std::pair<std::string, Forest>> forests;
   const auto add = [&](const std::string& name, const std::vector<std::string>& left_out) {

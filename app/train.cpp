@@ -56,8 +56,8 @@ std::vector<TrainingRoom> simulated_building(const Arguments& arguments, int bui
   return known_rooms(random_building(seed), options, building);
 }
 
-std::vector<Evidence> evidence_of(const Task& task, const std::vector<TrainingRoom>& rooms) {
-  std::vector<Evidence> evidence(rooms.size());
+std::vector<ForestEvidence> evidence_of(const Task& task, const std::vector<TrainingRoom>& rooms) {
+  std::vector<ForestEvidence> evidence(rooms.size());
   tbb::parallel_for(std::size_t{0}, rooms.size(),
                     [&](std::size_t i) { evidence[i] = task.evidence(rooms[i]); });
   return evidence;
@@ -71,21 +71,21 @@ TrainingRoom with_first_position(TrainingRoom room) {
 }
 
 /// The held-out buildings scanned again, under other conditions.
-std::vector<Evidence> held_out_again(const Task& task, const Arguments& arguments, double noise,
-                                     bool one_position) {
-  std::vector<Evidence> evidence;
+std::vector<ForestEvidence> held_out_again(const Task& task, const Arguments& arguments, double noise,
+                                           bool one_position) {
+  std::vector<ForestEvidence> evidence;
   for (int building = 0; building < *arguments.buildings; ++building) {
     if (!is_held_out(arguments, building)) continue;
     std::vector<TrainingRoom> rooms = simulated_building(arguments, building, noise);
     if (one_position)
       for (TrainingRoom& room : rooms) room = with_first_position(std::move(room));
-    std::vector<Evidence> more = evidence_of(task, rooms);
+    std::vector<ForestEvidence> more = evidence_of(task, rooms);
     std::move(more.begin(), more.end(), std::back_inserter(evidence));
   }
   return evidence;
 }
 
-using Floors = std::vector<std::pair<std::string, std::vector<Evidence>>>;
+using Floors = std::vector<std::pair<std::string, std::vector<ForestEvidence>>>;
 
 /// Walls as the scanners saw them: what is there framed green, what was found blue.
 void write_pictures(const fs::path& folder, const std::vector<TrainingRoom>& rooms, const Forest& forest) {
@@ -129,7 +129,7 @@ void print_importance(const Forest& forest, const std::vector<Sample>& samples, 
 /// What the forests learn from, and what they are judged by.
 struct Material {
   std::vector<Sample> train;
-  std::vector<Evidence> held_out;
+  std::vector<ForestEvidence> held_out;
   std::vector<TrainingRoom> to_picture;  ///< held-out rooms, when pictures are asked for
 };
 
@@ -139,21 +139,21 @@ Material made_up(const Task& task, const Arguments& arguments) {
   for (int building = 0; building < *arguments.buildings; ++building) {
     std::fprintf(stderr, "building %d of %d\n", building + 1, *arguments.buildings);
     std::vector<TrainingRoom> rooms = simulated_building(arguments, building);
-    std::vector<Evidence> evidence = evidence_of(task, rooms);
+    std::vector<ForestEvidence> evidence = evidence_of(task, rooms);
     if (only_judged || is_held_out(arguments, building)) {
-      for (Evidence& room : evidence) room.room.insert(0, "building " + std::to_string(building) + " ");
+      for (ForestEvidence& room : evidence) room.room.insert(0, "building " + std::to_string(building) + " ");
       std::move(evidence.begin(), evidence.end(), std::back_inserter(material.held_out));
       if (!arguments.pictures.empty())
         std::move(rooms.begin(), rooms.end(), std::back_inserter(material.to_picture));
     } else {
-      for (const Evidence& room : evidence)
+      for (const ForestEvidence& room : evidence)
         material.train.insert(material.train.end(), room.samples.begin(), room.samples.end());
     }
   }
   return material;
 }
 
-void print_quality(const std::string& what, const std::vector<Evidence>& rooms, const Forest& forest,
+void print_quality(const std::string& what, const std::vector<ForestEvidence>& rooms, const Forest& forest,
                    bool mistakes) {
   std::fputs(reach_table(what, reach_of(rooms), mistakes).c_str(), stdout);
   std::fputs(score_table(what, scores_of(rooms, forest), mistakes).c_str(), stdout);
@@ -176,7 +176,7 @@ Forest trained(const Task& task, const Arguments& arguments, const Material& mat
   if (material.train.empty()) throw InputError({}, "there is nothing to train on", "ask for more buildings");
   Forest forest = train_forest(task.name, task.features, task.classes, material.train, options);
   std::vector<Sample> held_out;
-  for (const Evidence& room : material.held_out)
+  for (const ForestEvidence& room : material.held_out)
     held_out.insert(held_out.end(), room.samples.begin(), room.samples.end());
   std::printf("%zu samples to train on, %zu held out\n", material.train.size(), held_out.size());
   print_confusion(forest, held_out);

@@ -98,7 +98,7 @@ class Lattice {
   std::size_t nodes() const { return nodes_; }
   std::size_t node(int cell, int state, int evidence_state) const {
     const auto e = static_cast<std::size_t>(evidence_state);
-    const auto length = static_cast<std::size_t>(last_cell_[e] - first_cell_[e] + 1);
+    const auto length = static_cast<std::size_t>(last_cell_[e] - first_cell_[e]) + 1;
     return offset_[e] + static_cast<std::size_t>(state) * length +
            static_cast<std::size_t>(cell - first_cell_[e]);
   }

@@ -71,9 +71,9 @@ Header read_header(LineReader& lines) {
     const std::uint64_t size = whole_number(lines, sizes[i]);
     const char kind = kinds[i][0] == 'F' ? 'f' : kinds[i][0] == 'I' ? 'i' : kinds[i][0] == 'U' ? 'u' : 0;
     if (!kind || (size != 1 && size != 2 && size != 4 && size != 8) || (kind == 'f' && size < 4) ||
-        header.counts[i] > 65536)
-      fail(lines, "a field of type " + kinds[i].substr(0, 8) + " and size " + sizes[i].substr(0, 8) +
-                      " is not known");
+        header.counts[i] == 0 || header.counts[i] > 65536)
+      fail(lines, "a field of type " + kinds[i].substr(0, 8) + ", size " + sizes[i].substr(0, 8) +
+                      " and count " + std::to_string(header.counts[i]) + " is not known");
     header.types.push_back({kind, static_cast<std::size_t>(size)});
   }
   return header;

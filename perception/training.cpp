@@ -126,7 +126,7 @@ Interval wilson(int successes, int trials) {
 }
 
 Task opening_task(const OpeningOptions& options) {
-  const auto evidence = [options](const TrainingRoom& known) -> Evidence {
+  const auto evidence = [options](const TrainingRoom& known) -> ForestEvidence {
     const auto walls = std::make_shared<const std::vector<WallCandidates>>(
         wall_candidates(known.cloud, known.room, options));
     const std::vector<OpeningObservation> truth = true_openings(known.truth, known.room);

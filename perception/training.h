@@ -44,7 +44,7 @@ using Scores = std::map<std::string, Score>;  ///< by kind of what is found
 
 /// What forests learn from a room and are judged by in it. Its candidates are made once, for many forests;
 /// the scans are not needed any more.
-struct Evidence {
+struct ForestEvidence {
   std::string room;
   std::vector<Sample> samples;
   /// Of the true things, those that one candidate at least overlaps by half: what no forest can better.
@@ -58,7 +58,7 @@ struct Task {
   std::vector<std::string> features, classes;
   /// Features that say something of one kind, by name.
   std::vector<std::pair<std::string, std::vector<std::string>>> feature_groups;
-  std::function<Evidence(const TrainingRoom&)> evidence;
+  std::function<ForestEvidence(const TrainingRoom&)> evidence;
 };
 Task opening_task(const OpeningOptions& options = {});
 Task furniture_task(const FurnitureOptions& options = {});

@@ -124,7 +124,7 @@ Task furniture_task(const FurnitureOptions& options) {
            {"surroundings",
             {"to wall", "goes on", "floor beside", "wall beside", "higher beside", "step beside"}},
            {"whole", {"whole"}}},
-          [options](const TrainingRoom& known) -> Evidence {
+          [options](const TrainingRoom& known) -> ForestEvidence {
             const auto candidates = std::make_shared<const FurnitureCandidates>(
                 furniture_candidates(known.cloud, known.room, options));
             const auto score = [candidates, origin_m = known.cloud.origin_m, truth = known.truth,

@@ -44,7 +44,7 @@ TEST_CASE("a room's evidence serves any forest, and no forest finds more than th
   for (const Task& task : {opening_task(), furniture_task()}) {
     const Forest forest = tiny_forest(task);
     for (const TrainingRoom& known : known_rooms(random_building(6, 1), sparse(), 0)) {
-      const Evidence evidence = task.evidence(known);
+      const ForestEvidence evidence = task.evidence(known);
       const Scores scores = evidence.score(forest), again = evidence.score(forest);
       int there = 0, reached = 0, right = 0;
       for (const auto& [kind, score] : evidence.reach) there += score.truth, reached += score.right;
