@@ -7,6 +7,7 @@
 #include "app/progress.h"
 #include "app/rules_file.h"
 #include "floor/complete_floor.h"
+#include "floor/drawn_rooms.h"
 #include "floor/ground_truth.h"
 #include "floor/scan_folder.h"
 #include "floor/spaces.h"
@@ -48,6 +49,10 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
       "-s,--scans", options.scans,
       "Folder with a folder of scans for each room, or the ROOM.json that `gramap perceive` made of "
       "it [FLOOR/scans when the floor is a folder]");
+  verb.add_flag("--drawn-rooms", options.drawn_rooms,
+                "Take the rooms that the floor file draws as if they had been scanned: a fitted floor's "
+                "GeoJSON (gramap export) "
+                "comes back as it was");
   verb.add_option("--without", options.without, "Rooms whose scans to leave out, separated by commas")
       ->delimiter(',');
   const std::map<std::string, ScanFrame> frames{
@@ -121,6 +126,14 @@ FitInputs read_inputs(const FitInputOptions& options) {
   }
   inputs.problems =
       space_problems(inputs.floor, inputs.rules, inputs.observations, options.fit, inputs.set_aside);
+  if (options.drawn_rooms) {
+    const FloorTruth drawn = read_truth(floor_file(options));
+    if (drawn.rooms.empty())
+      throw InputError({floor_file(options).string()},
+                       "no rooms are drawn here, but --drawn-rooms asks for them",
+                       "leave --drawn-rooms out, or give a floor file with features of kind 'room'");
+    observe_drawn_rooms(inputs.floor, drawn, inputs.rules, inputs.problems);
+  }
   return inputs;
 }
 
@@ -144,6 +157,7 @@ std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions&
   items.emplace_back("pose-sigma", number(options.fit.placement.pose_sigma_m));
   items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
   items.emplace_back("least-error", options.fit.space.least_error ? "true" : "false");
+  items.emplace_back("drawn-rooms", options.drawn_rooms ? "true" : "false");
   items.emplace_back("hallway-seed", std::to_string(options.hallway_seed));
   if (!options.rls.empty()) items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));
   return items;

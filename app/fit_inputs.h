@@ -25,6 +25,7 @@ struct FitInputOptions {
   PerceptionOptions perception;
   RlsOptions rls_options;
   std::uint64_t hallway_seed = 1;
+  bool drawn_rooms = false;
   bool quiet = false;
 };
 

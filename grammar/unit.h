@@ -19,7 +19,8 @@ struct UnitVariant {
 /// All ways of `item`, which stands in `rule`; probabilities sum to 1. Inside a unit sizes are taken at their
 /// means, floating ones share what is left, and where there is none the others stretch in proportion to their
 /// variances. Throws RowFaultError when a split cannot fill its scope (with the residual), and for what a
-/// unit cannot hold: recursion, contexts, `after` blocks, conditions on the remaining length, repeats without a most.
+/// unit cannot hold: recursion, contexts, `after` blocks, conditions on the remaining length, repeats without
+/// a most.
 std::vector<UnitVariant> unit_variants(const RuleSet& rules, const SpaceAttributes& space, const Item& item,
                                        int rule);
 

@@ -1,6 +1,6 @@
-// Any bytes as a rule file: what its `hallways` block grows in outlines of several shapes. What has to hold: no
-// crash and no endless growth; a network is refused with a message, or is one simple ring inside the outline;
-// the same seed grows it again.
+// Any bytes as a rule file: what its `hallways` block grows in outlines of several shapes. What has to hold:
+// no crash and no endless growth; a network is refused with a message, or is one simple ring inside the
+// outline; the same seed grows it again.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
