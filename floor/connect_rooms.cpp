@@ -35,11 +35,6 @@ Vec2 outward(const Vec2& a, const Vec2& b) {
   return {along.y(), -along.x()};
 }
 
-bool has_door(const FittedRoom& room) {
-  return std::any_of(room.openings.begin(), room.openings.end(),
-                     [](const FittedOpening& o) { return o.kind == "door"; });
-}
-
 /// Whether a room's stretch of its space's reference line holds another's.
 bool spans(const FittedRoom& outer, const FittedRoom& inner) {
   constexpr double kSlack_m = 0.02;

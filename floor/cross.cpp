@@ -11,6 +11,7 @@
 #include "geometry/error.h"
 #include "geometry/random.h"
 #include "grammar/likelihood.h"
+#include "grammar/row_evidence.h"
 #include "grammar/space.h"
 
 namespace gramap {
@@ -326,17 +327,8 @@ std::vector<HeldOutLikelihood> held_out_likelihoods(
     for (const KnownRow& row : data.rows) {
       if (row.floor != floor || !row.whole) continue;
       SpaceProblem problem = bare_problem(row);
-      const std::vector<Interval> truth = true_rooms(row, data.inner_wall_m);
-      for (std::size_t i = 0; i < truth.size(); ++i) {
-        RoomEvidence evidence;
-        evidence.id = row.rooms[i].id;
-        evidence.width_m = truth[i].width_m();
-        evidence.width_sigma_m = sigma_m;
-        evidence.centre_m = (truth[i].start_m + truth[i].end_m) / 2;
-        evidence.centre_sigma_m = sigma_m;
-        problem.rooms.push_back(evidence);
-      }
-      rooms += static_cast<double>(truth.size());
+      problem.rooms = row_evidence(row, data.inner_wall_m, sigma_m, sigma_m);
+      rooms += static_cast<double>(problem.rooms.size());
       problems.push_back(std::move(problem));
     }
     for (const auto& [name, rules] : candidates) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "floor/known_rows.h"
+#include "grammar/row_evidence.h"
 
 namespace gramap {
 namespace {
@@ -18,25 +19,17 @@ void observe_drawn_rooms(const FloorGroundTruth& floor, const FloorTruth& drawn,
     const auto problem = std::find_if(problems.begin(), problems.end(),
                                       [&](const SpaceProblem& p) { return p.id == row.space; });
     if (problem == problems.end() || !row.whole) continue;
-    double start_m = 0;
-    for (const KnownRoom& room : row.rooms) {
-      const auto same = [&](const RoomEvidence& known) { return known.id == room.id; };
-      if (std::none_of(problem->rooms.begin(), problem->rooms.end(), same)) {
-        RoomEvidence evidence;
-        evidence.id = room.id;
-        evidence.width_m = room.width_m;
-        evidence.width_sigma_m = kWidthSigma_m;
-        evidence.centre_m = start_m + room.width_m / 2;
-        evidence.centre_sigma_m = kPlaceSigma_m;
-        const bool is_known_type = std::any_of(rules.rooms.begin(), rules.rooms.end(),
-                                               [&](const auto& type) { return type.name == room.type; });
-        if (is_known_type) {
-          evidence.type = room.type;
-          evidence.type_confidence = kTypeConfidence;
-        }
-        problem->rooms.push_back(std::move(evidence));
+    for (RoomEvidence& room :
+         row_evidence(row, data.inner_wall_m, kWidthSigma_m, kPlaceSigma_m, kTypeConfidence)) {
+      if (std::any_of(problem->rooms.begin(), problem->rooms.end(),
+                      [&](const RoomEvidence& known) { return known.id == room.id; }))
+        continue;
+      if (std::none_of(rules.rooms.begin(), rules.rooms.end(),
+                       [&](const RoomType& type) { return type.name == room.type; })) {
+        room.type.clear();
+        room.type_confidence = 0;
       }
-      start_m += room.width_m + data.inner_wall_m;
+      problem->rooms.push_back(std::move(room));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "floor/hallway_doors.h"
 #include "floor/inner_doors.h"
 #include "floor/place.h"
+#include "floor/reachable.h"
 #include "geometry/polygon.h"
 
 namespace gramap {
@@ -121,11 +122,6 @@ void add_seen(FittedRoom& room, const RoomObservation& seen, const PlanMotion& m
     for (const Vec2& point : piece.footprint) fitted.outline.push_back(motion(point));
     room.furniture.push_back(fitted);
   }
-}
-
-bool has_door(const FittedRoom& room) {
-  return std::any_of(room.openings.begin(), room.openings.end(),
-                     [](const FittedOpening& o) { return o.kind == "door"; });
 }
 
 /// A door of the given width on the hallway's side, its nearer edge at `start_m` along the room.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "floor/reachable.h"
+
 namespace gramap {
 namespace {
 
@@ -18,11 +20,6 @@ struct Stretch {
   Vec2 a, b;
   double length_m() const { return (b - a).norm(); }
 };
-
-bool has_door(const FittedRoom& room) {
-  return std::any_of(room.openings.begin(), room.openings.end(),
-                     [](const FittedOpening& opening) { return opening.kind == "door"; });
-}
 
 /// The longest stretch of `room`'s outline behind which, one wall farther, lies a face of `other`.
 std::optional<Stretch> shared_wall(const FittedRoom& room, const FittedRoom& other, double wall_m) {

@@ -1,9 +1,15 @@
 #include "floor/reachable.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 namespace gramap {
+
+bool has_door(const FittedRoom& room) {
+  return std::any_of(room.openings.begin(), room.openings.end(),
+                     [](const FittedOpening& opening) { return opening.kind == "door"; });
+}
 
 std::vector<std::string> unreachable(const std::vector<std::string>& ids,
                                      const std::vector<std::pair<std::string, std::string>>& passages,

@@ -1,11 +1,15 @@
-// Which rooms can be reached through doors.
+// Doors of rooms, and which rooms can be reached through them.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "floor/fitted_floor.h"
+
 namespace gramap {
+
+bool has_door(const FittedRoom& room);
 
 /// Of the rooms `ids`, those that no sequence of `passages` (pairs of ids; "outside" counts as a place) joins
 /// to any of `from`. In the order of `ids`.

@@ -8,6 +8,7 @@
 #include "geometry/error.h"
 #include "grammar/inference.h"
 #include "grammar/language.h"
+#include "grammar/row_evidence.h"
 #include "grammar/space.h"
 #include "grammar/syntax.h"
 
@@ -19,20 +20,8 @@ SpaceProblem problem_of(const KnownRow& row, double wall_m, double sigma_m) {
   problem.id = row.space;
   problem.length_m = row.length_m;
   problem.hallway = row.hallway;
-  double start_m = 0;
-  for (const KnownRoom& room : row.rooms) {
-    problem.depth_m = std::max(problem.depth_m, room.depth_m);
-    RoomEvidence evidence;
-    evidence.id = room.id;
-    evidence.width_m = room.width_m;
-    evidence.width_sigma_m = sigma_m;
-    evidence.centre_m = start_m + room.width_m / 2;
-    evidence.centre_sigma_m = sigma_m;
-    evidence.type = room.type;
-    evidence.type_confidence = room.type.empty() ? 0 : 0.9;
-    problem.rooms.push_back(evidence);
-    start_m += room.width_m + wall_m;
-  }
+  for (const KnownRoom& room : row.rooms) problem.depth_m = std::max(problem.depth_m, room.depth_m);
+  problem.rooms = row_evidence(row, wall_m, sigma_m, sigma_m, 0.9);
   return problem;
 }
 
