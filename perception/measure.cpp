@@ -2,54 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geometry/polygon.h"
-#include "perception/range_noise.h"
+#include "perception/plane_points.h"
 
 namespace gramap {
 namespace {
 
 constexpr std::size_t kMeasuredPoints = 60000;  // enough: what is left of the error is not the points' noise
-
-struct Stretch {
-  double from, to;
-};
-
-/// The points of the first `levels` of floor and ceiling and of the walls, chosen where the scans'
-/// corrections so far put them. Corners hold points of two planes, and are left out.
-std::vector<PlanePoint> gather(const std::vector<AdjustedPlane>& planes, const RangeNoise& noise,
-                               const std::vector<std::vector<Stretch>>& stretches, const Polygon& ring,
-                               std::uint32_t levels, const RegisteredCloud& cloud,
-                               const std::vector<Vec3>& scanners,
-                               const std::vector<Eigen::Isometry3d>& corrections) {
-  std::vector<PlanePoint> points;
-  const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kMeasuredPoints);
-  const double low = planes[0].middle.z() + 0.1, high = planes[1].middle.z() - 0.1;
-  for (std::uint32_t part = 0; part < cloud.parts.size(); ++part)
-    for (std::size_t i = cloud.parts[part].begin; i < cloud.parts[part].end; i += step) {
-      const Vec3 raw = cloud.points_m[i].cast<double>(), p = corrections[part] * raw;
-      const double sigma = noise.at((raw - scanners[part]).norm()), band = 3 * sigma;
-      if (p.z() > low && p.z() < high) {
-        for (std::uint32_t w = 2; w < planes.size(); ++w) {
-          const AdjustedPlane& plane = planes[w];
-          const Vec3 offset = p - plane.middle;
-          if (std::abs(plane.normal.dot(offset)) > band) continue;
-          const double along = plane.u.dot(offset);
-          const auto on = [&](const Stretch& s) { return along >= s.from && along <= s.to; };
-          if (std::any_of(stretches[w].begin(), stretches[w].end(), on)) {
-            points.push_back({raw, sigma, part, w});
-            break;
-          }
-        }
-      } else {
-        for (std::uint32_t level = 0; level < levels; ++level)
-          if (std::abs(planes[level].normal.dot(p - planes[level].middle)) <= band &&
-              contains(ring, p.head<2>()))
-            points.push_back({raw, sigma, part, level});
-      }
-    }
-  return points;
-}
 
 }  // namespace
 
@@ -89,7 +50,7 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
   std::vector<Vec3> scanners;
   for (const RegisteredCloud::Part& part : cloud.parts) scanners.push_back(part.scanner_m);
 
-  RangeNoise noise;
+  FaceNoise noise;
   // Every round starts from the scans as they came: what is known of their errors beforehand is used once.
   std::vector<Eigen::Isometry3d> corrections(scanners.size(), Eigen::Isometry3d::Identity());
   double moved_m = 1;
@@ -99,18 +60,17 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     room.plane_of_edge.clear();
     for (const int line : outline.lines)
       room.plane_of_edge.push_back(plane_of_line[static_cast<std::size_t>(line)]);
-    std::vector<std::vector<Stretch>> stretches(room.planes.size());
+    RoomFaces faces{room.planes, outline.ring, std::vector<std::vector<Stretch>>(room.planes.size())};
     for (std::size_t i = 0; i < edges; ++i) {
       const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(room.plane_of_edge[i])];
       const double a = plane.u.head<2>().dot(outline.ring[i] - plane.middle.head<2>());
       const double b = plane.u.head<2>().dot(outline.ring[(i + 1) % edges] - plane.middle.head<2>());
       const double shrink = std::min(0.06, std::abs(a - b) / 4);
-      stretches[static_cast<std::size_t>(room.plane_of_edge[i])].push_back(
+      faces.stretches[static_cast<std::size_t>(room.plane_of_edge[i])].push_back(
           {std::min(a, b) + shrink, std::max(a, b) - shrink});
     }
-    const std::vector<PlanePoint> points =
-        gather(room.planes, noise, stretches, outline.ring, storey.ceiling_rise_m > 0 ? 1 : 2, cloud,
-               scanners, corrections);
+    faces.level_ceiling = storey.ceiling_rise_m <= 0;
+    const std::vector<PlanePoint> points = points_on(faces, noise, cloud, corrections, kMeasuredPoints);
     const std::vector<AdjustedPlane> before = room.planes;
     room.adjustment = adjust(room.planes, points, scanners);
     moved_m = 0;
@@ -118,7 +78,9 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
       moved_m = std::max(moved_m, (room.planes[p].middle - before[p].middle).norm());
     corrections = room.adjustment.corrected_from_registered;
     for (const PlanePoint& point : points)
-      noise.add((point.point_m - scanners[point.part]).norm(), residual_m(point, room.planes, corrections));
+      if (const auto met = meeting(room.planes[point.plane], corrections[point.part] * scanners[point.part],
+                                   corrections[point.part] * point.point_m))
+        noise.add(met->range_m, met->slope, residual_m(point, room.planes, corrections));
     noise.learn();
     for (std::size_t l = 0; l < lines.size(); ++l) {
       if (plane_of_line[l] < 0) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,7 @@ class RangeNoise {
 
   /// Learns from the residuals added since the last time, robustly: from each bin's median.
   void learn() {
-    double last = kLargest_m;
+    double last = largest_m_;
     for (std::size_t b = 0; b < kBins; ++b) {
       std::vector<float>& list = residuals_[b];
       if (list.size() >= 50) {
@@ -37,18 +38,39 @@ class RangeNoise {
     }
   }
 
-  explicit RangeNoise(double largest_m = kLargest_m)
-      : largest_m_(largest_m), sigma_m_(kBins, kLargest_m / 1.5), residuals_(kBins) {}
+  explicit RangeNoise(double largest_m) : largest_m_(largest_m), sigma_m_(kBins, 0.02), residuals_(kBins) {}
 
  private:
   static constexpr std::size_t kBins = 40;
-  static constexpr double kLargest_m = 0.03;
   static std::size_t bin(double range_m) {
     return std::min(kBins - 1, static_cast<std::size_t>(range_m / 0.5));
   }
   double largest_m_;
   std::vector<double> sigma_m_;
   std::vector<std::vector<float>> residuals_;
+};
+
+/// The noise of points across the plane that they lie on, by range and by how steeply the ray meets the plane: of
+/// noise along the ray, a grazing ray shows little.
+class FaceNoise {
+ public:
+  FaceNoise() : by_slope_(kSlopes, RangeNoise(kLargest_m)) {}
+  /// Standard deviation in metres; `slope` is the cosine between the ray and the plane's normal.
+  double at(double range_m, double slope) const { return by_slope_[bin(slope)].at(range_m); }
+  void add(double range_m, double slope, double residual_m) {
+    by_slope_[bin(slope)].add(range_m, residual_m);
+  }
+  void learn() {
+    for (RangeNoise& noise : by_slope_) noise.learn();
+  }
+  static constexpr double kLargest_m = 0.1;
+
+ private:
+  static constexpr std::size_t kSlopes = 5;
+  static std::size_t bin(double slope) {
+    return std::min(kSlopes - 1, static_cast<std::size_t>(std::abs(slope) * kSlopes));
+  }
+  std::vector<RangeNoise> by_slope_;
 };
 
 /// The noise along the ray, in metres, of a room's points: from those on planes that the scanner saw steeply
