@@ -20,6 +20,10 @@ struct View {
 
   /// Points average their own noise, never what the whole view has in common.
   double share(double systematic_m) const { return 1 / (1 + weight * systematic_m * systematic_m); }
+
+  /// Of the weighted mean of its points, each as `outer`'s.
+  Row mean_row() const { return -outer.col(6) / weight; }
+  double mean_residual() const { return right[6] / weight; }
 };
 
 }  // namespace
@@ -47,7 +51,8 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
 
   const auto size = static_cast<Eigen::Index>(3 * count);
   Adjustment result;
-  double shift = options.start_shift_m, turn = options.start_turn_rad;
+  double shift = options.start_shift_m, turn = options.start_turn_rad,
+         systematic = options.start_systematic_m;
   std::vector<Pose> poses(parts, Pose::Zero());
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(size);
   Eigen::MatrixXd covariance;
@@ -73,7 +78,7 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
       for (std::size_t p = 0; p < count; ++p) {
         const View& view = views[k * count + p];
         if (view.count < 5) continue;
-        const double weight = view.share(options.systematic_m);
+        const double weight = view.share(systematic);
         const auto at = static_cast<Eigen::Index>(3 * p);
         own += weight * view.outer.topLeftCorner<6, 6>();
         coupling[k].middleCols<3>(at) += weight * view.outer.topRightCorner<6, 3>();
@@ -88,19 +93,43 @@ Adjustment adjust(std::vector<AdjustedPlane>& planes, const std::vector<PlanePoi
     covariance = normal.inverse();
     moved = covariance * right;
     double shifts = 0, turns = 0;
+    double squares = options.systematic_worth * options.systematic_m * options.systematic_m,
+           views_seen = options.systematic_worth;
     for (std::size_t k = 0; k < parts; ++k) {
       poses[k] = inverse[k] * (pose_right[k] - coupling[k] * moved);
       const Eigen::MatrixXd through = inverse[k] * coupling[k];
-      const Pose variance = (inverse[k] + through * covariance * through.transpose()).diagonal();
+      const PoseBlock pose_covariance = inverse[k] + through * covariance * through.transpose();
+      const Pose variance = pose_covariance.diagonal();
       shifts += poses[k].head<3>().squaredNorm() + variance.head<3>().sum();
       turns += poses[k].tail<3>().squaredNorm() + variance.tail<3>().sum();
+      for (std::size_t p = 0; p < count; ++p) {
+        const View& view = views[k * count + p];
+        if (view.count < 5) continue;
+        // What the view is off by in common: expected square given where scan and plane are, which is
+        // uncertain.
+        const auto at = static_cast<Eigen::Index>(3 * p);
+        const Row row = view.mean_row();
+        const auto of_pose = row.head<6>();
+        const auto of_plane = row.tail<3>();
+        const double residual =
+            view.mean_residual() + of_pose.dot(poses[k]) + of_plane.dot(moved.segment<3>(at));
+        const double uncertain = of_pose.dot(pose_covariance * of_pose) -
+                                 2 * of_pose.dot(through * covariance.middleCols<3>(at) * of_plane) +
+                                 of_plane.dot(covariance.block<3, 3>(at, at) * of_plane);
+        const double common = 1 - view.share(systematic);
+        squares += common * common * (residual * residual + uncertain) +
+                   systematic * systematic * view.share(systematic);
+        views_seen += 1;
+      }
     }
+    systematic = std::sqrt(squares / views_seen);
     if (parts > 1) {
       shift = std::clamp(std::sqrt(shifts / (3 * static_cast<double>(parts))), 0.0005, 0.1);
       turn = std::clamp(std::sqrt(turns / (3 * static_cast<double>(parts))), 0.0002, 0.05);
     }
   }
 
+  result.systematic_m = systematic;
   result.shift_sigma_m = shift;
   result.turn_sigma_rad = turn;
   for (std::size_t k = 0; k < parts; ++k) {

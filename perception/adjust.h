@@ -5,8 +5,9 @@
 // happen to have on it. Here the planes of the room and a small rigid correction per scan are estimated
 // together by least squares on the distances of points from planes (a bundle adjustment of planes). A scan
 // that sees two opposite walls then no longer moves their distance, whatever its own error. How far scans are
-// off is estimated too, as a variance component by expectation maximisation, so that the deviations that come
-// out can be trusted.
+// off is estimated too, and how far a scan's view of a plane is off as a whole beyond that, as variance
+// components by expectation maximisation (Dempster, Laird, Rubin 1977), so that the deviations that come out
+// can be trusted.
 #pragma once
 
 #include <Eigen/Dense>
@@ -45,15 +46,19 @@ inline double residual_m(const PlanePoint& point, const std::vector<AdjustedPlan
 }
 
 struct AdjustOptions {
-  double systematic_m = 0.001;    ///< error of one scan's view of one plane that more points do not lessen
-  double start_shift_m = 0.01;    ///< first guess of how far scans are shifted …
-  double start_turn_rad = 0.003;  ///< … and turned
+  /// Error of one scan's view of one plane that more points do not lessen: what is known of it beforehand,
+  /// and how many views that knowledge is worth beside those there are.
+  double systematic_m = 0.001, systematic_worth = 4;
+  double start_systematic_m = 0.001;  ///< first guess of it
+  double start_shift_m = 0.01;        ///< first guess of how far scans are shifted …
+  double start_turn_rad = 0.003;      ///< … and turned
 };
 
 struct Adjustment {
   std::vector<Eigen::Isometry3d> corrected_from_registered;  ///< per scan
   Eigen::MatrixXd covariance;  ///< of the planes' positions along their normals at `middle`, m²
   double shift_sigma_m = 0, turn_sigma_rad = 0;  ///< of the scans, as estimated
+  double systematic_m = 0;                       ///< of a scan's view of a plane, as estimated
 };
 
 /// Moves the planes to their best places and says how each scan should move; points are not changed.

@@ -51,6 +51,7 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
   for (const RegisteredCloud::Part& part : cloud.parts) scanners.push_back(part.scanner_m);
 
   FaceNoise noise;
+  AdjustOptions expected;  // its variances go on converging from round to round
   // Every round starts from the scans as they came: what is known of their errors beforehand is used once.
   std::vector<Eigen::Isometry3d> corrections(scanners.size(), Eigen::Isometry3d::Identity());
   double moved_m = 1;
@@ -72,7 +73,10 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     faces.level_ceiling = storey.ceiling_rise_m <= 0;
     const std::vector<PlanePoint> points = points_on(faces, noise, cloud, corrections, kMeasuredPoints);
     const std::vector<AdjustedPlane> before = room.planes;
-    room.adjustment = adjust(room.planes, points, scanners);
+    room.adjustment = adjust(room.planes, points, scanners, expected);
+    expected.start_shift_m = room.adjustment.shift_sigma_m;
+    expected.start_turn_rad = room.adjustment.turn_sigma_rad;
+    expected.start_systematic_m = room.adjustment.systematic_m;
     moved_m = 0;
     for (std::size_t p = 0; p < before.size(); ++p)
       moved_m = std::max(moved_m, (room.planes[p].middle - before[p].middle).norm());

@@ -9,19 +9,20 @@
 namespace gramap {
 namespace {
 
-constexpr double kSigmas = 3;           // points up to so many deviations off are the face's
-constexpr double kCell_m = 0.2;         // small enough for frames, large enough for a handful of points each
-constexpr double kBesideFace_m = 0.3;   // what ends so near in front of a face may have sides that reach it
-constexpr double kLeastOnFace = 0.85;   // of a cell's rays, or it is not plain face
-constexpr double kLeastPlain = 0.2;     // of a face's points; a face that has less is measured on all it has
+constexpr double kSigmas = 3;  // points up to so many deviations off are the face's
+constexpr double kBeside = 9;  // what lies between, up to so many, tells of points that are not
+constexpr double kMostBeside =
+    0.1;                         // of those on the face: half as many are wrongly among them, all on one side
+constexpr double kCell_m = 0.2;  // small enough for frames, large enough for a handful of points each
+constexpr double kLeastPlain = 0.2;  // of a face's points; a face that has less is measured on all it has
 
 /// How the rays through the cells of a face end.
 class FaceCells {
  public:
   struct Cell {
-    int on = 0;     ///< on the face
-    int other = 0;  ///< beyond it, or close in front
-    bool is_plain() const { return on >= kLeastOnFace * (on + other); }
+    int on = 0;
+    int beside = 0;  ///< a little in front of it, or beyond
+    bool is_plain() const { return beside <= kMostBeside * on; }
   };
 
   FaceCells(const RoomFaces& faces, std::size_t plane) : plane_(faces.planes[plane]) {
@@ -78,7 +79,8 @@ std::optional<Meeting> meeting(const AdjustedPlane& plane, const Vec3& scanner, 
   return Meeting{scanner + part * ray, part * range, std::abs(plane.normal.dot(ray)) / range};
 }
 
-std::vector<PlanePoint> points_on(const RoomFaces& faces, const FaceNoise& noise, const RegisteredCloud& cloud,
+std::vector<PlanePoint> points_on(const RoomFaces& faces, const FaceNoise& noise,
+                                  const RegisteredCloud& cloud,
                                   const std::vector<Eigen::Isometry3d>& corrections, std::size_t most) {
   const std::vector<AdjustedPlane>& planes = faces.planes;
   std::vector<FaceCells> cells;
@@ -96,15 +98,14 @@ std::vector<PlanePoint> points_on(const RoomFaces& faces, const FaceNoise& noise
       std::uint32_t best_cell = 0;
       for (std::uint32_t k = 0; k < planes.size(); ++k) {
         if (k == 1 && !faces.level_ceiling) continue;
+        const double across = planes[k].normal.dot(p - planes[k].middle);
+        if (std::abs(across) > kBeside * FaceNoise::kLargest_m) continue;
         const std::optional<Meeting> met = meeting(planes[k], scanner, p);
         if (!met) continue;
-        const double across = planes[k].normal.dot(p - planes[k].middle), sigma = noise.at(met->range_m, met->slope);
-        const bool in_front = across * planes[k].normal.dot(scanner - planes[k].middle) > 0;
-        const bool on = std::abs(across) <= kSigmas * sigma;
-        if (!on && in_front && std::abs(across) > kBesideFace_m) continue;
-        if (!faces.covers(k, met->place)) continue;
+        const double sigma = noise.at(met->range_m, met->slope);
+        if (std::abs(across) > kBeside * sigma || !faces.covers(k, met->place)) continue;
         const std::uint32_t cell = cells[k].index(met->place);
-        ++(on ? cells[k][cell].on : cells[k][cell].other);
+        ++(std::abs(across) <= kSigmas * sigma ? cells[k][cell].on : cells[k][cell].beside);
         if (std::abs(across) > nearest * sigma) continue;
         nearest = std::abs(across) / sigma;
         best = {raw, sigma, part, k};

@@ -23,17 +23,20 @@ class RangeNoise {
     residuals_[bin(range_m)].push_back(static_cast<float>(residual_m < 0 ? -residual_m : residual_m));
   }
 
-  /// Learns from the residuals added since the last time, robustly: from each bin's median.
+  /// Learns from the residuals added since the last time, robustly: from each bin's median. Bins with few
+  /// take over the next nearer one's noise, or the next farther one's.
   void learn() {
-    double last = largest_m_;
+    double last = 0;
     for (std::size_t b = 0; b < kBins; ++b) {
       std::vector<float>& list = residuals_[b];
       if (list.size() >= 50) {
         const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
         std::nth_element(list.begin(), middle, list.end());
+        const bool first = last == 0;
         last = std::clamp(1.4826 * static_cast<double>(*middle), 0.001, largest_m_);
+        if (first) std::fill_n(sigma_m_.begin(), b, last);
       }
-      sigma_m_[b] = std::min(last, largest_m_);
+      if (last > 0) sigma_m_[b] = last;
       list.clear();
     }
   }
@@ -50,8 +53,8 @@ class RangeNoise {
   std::vector<std::vector<float>> residuals_;
 };
 
-/// The noise of points across the plane that they lie on, by range and by how steeply the ray meets the plane: of
-/// noise along the ray, a grazing ray shows little.
+/// The noise of points across the plane that they lie on, by range and by how steeply the ray meets the
+/// plane: of noise along the ray, a grazing ray shows little.
 class FaceNoise {
  public:
   FaceNoise() : by_slope_(kSlopes, RangeNoise(kLargest_m)) {}
