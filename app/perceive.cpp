@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "geometry/file.h"
 #include "perception/debug.h"
 #include "perception/label_image.h"
+#include "perception/random.h"
 
 namespace gramap {
 namespace {
@@ -35,6 +37,7 @@ struct Options {
   std::string output = "-";
   ScanFormat format;
   std::string debug, truth;
+  std::optional<std::uint64_t> own_frames;
   bool verbose = false, mistakes = false;
   std::string images;
   PerceptionOptions perception;
@@ -60,6 +63,15 @@ std::vector<fs::path> rooms_of(const std::vector<std::string>& folders) {
       rooms.insert(rooms.end(), inside.begin(), inside.end());
   }
   return rooms;
+}
+
+/// A frame that a device could have made up when it was switched on in a room: any heading, any origin.
+Eigen::Isometry3d made_up_frame(const std::string& room, std::uint64_t seed) {
+  Random random(seed_for(seed, room));
+  Eigen::Isometry3d frame(
+      Eigen::AngleAxisd(random.uniform(-std::numbers::pi, std::numbers::pi), Vec3::UnitZ()));
+  frame.pretranslate(Vec3(random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-2, 2)));
+  return frame;
 }
 
 constexpr std::array<std::uint8_t, 3> kDoorColour = {180, 95, 0}, kWindowColour = {0, 60, 255};
@@ -109,6 +121,9 @@ int run(const Options& options) {
         };
       const auto start = std::chrono::steady_clock::now();
       RoomScans scans = read_room_scans(folder, reading);
+      if (options.own_frames)
+        for (Scan& scan : scans.scans)
+          scan.room_from_scanner = made_up_frame(scans.room, *options.own_frames) * scan.room_from_scanner;
       RegisteredCloud cloud = registered(scans);
       const std::string name = scans.room;
       scans = {};  // the cloud has the points now
@@ -175,6 +190,12 @@ Verb declare_perceive(CLI::App& gramap) {
       "--truth", options->truth,
       "A truth.geojson, or the floor folder with one: print how far each room is from it, and how "
       "many doors, windows and pieces of furniture were found");
+  verb->add_option(
+          "--own-frames", options->own_frames,
+          "A seed: turn and shift the scans of each room at random before anything else, as if every room "
+          "had been scanned in a frame of its own. With --truth it shows that no figure depends on the "
+          "building's frame")
+      ->type_name("SEED");
   verb->add_flag("--mistakes", options->mistakes,
                  "With --truth: name each thing missed and each found in vain");
   verb->add_flag("-v,--verbose", options->verbose, "Say what each stage takes, time and memory");
