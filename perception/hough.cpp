@@ -12,6 +12,10 @@
 namespace gramap {
 namespace {
 
+// Triples drawn in vain before giving up, when fewer points are left than that takes: a plane of which every
+// point began so many triples does not stand out from the clutter.
+constexpr int kTrialsPerPoint = 8, kLeastTrials = 5000;
+
 /// At most `count` points, one at random from each of as many equal stretches of the cloud, relative to
 /// `centre`.
 std::vector<Point> sampled(std::span<const Point> points, std::size_t count, const Point& centre,
@@ -41,23 +45,22 @@ std::optional<Candidate> draw_candidate(const Neighbourhood& near, BallAccumulat
   const std::vector<Point>& points = near.points();
   const float min_squared = static_cast<float>(options.min_pair_m * options.min_pair_m);
   const float max_squared = static_cast<float>(options.max_pair_m * options.max_pair_m);
-  const auto in_band = [&](const Eigen::Vector3f& d) {
-    const float squared = d.squaredNorm();
-    return squared >= min_squared && squared <= max_squared;
-  };
-  for (; trials < options.max_trials; ++trials) {
+  const int most =
+      std::min(options.max_trials, std::max(kLeastTrials, kTrialsPerPoint * static_cast<int>(points.size())));
+  for (; trials < most; ++trials) {
     // Half of the triples start anywhere in the cloud, half anywhere in the room.
     const std::uint32_t first =
         trials & 1 ? near.draw_by_place(random)
                    : static_cast<std::uint32_t>(random.below(static_cast<int>(points.size())));
+    // Every second triple or so is refused, and no processor can guess which: one question, asked at the end.
     const Point& p = points[first];
-    const Eigen::Vector3f a = points[near.draw(first, random)] - p;
-    if (!in_band(a)) continue;
-    const Eigen::Vector3f b = points[near.draw(first, random)] - p;
-    if (!in_band(b)) continue;
+    const Eigen::Vector3f a = points[near.draw(first, random)] - p, b = points[near.draw(first, random)] - p;
+    const float a2 = a.squaredNorm(), b2 = b.squaredNorm();
     Eigen::Vector3f normal = a.cross(b);
     const float squared = normal.squaredNorm();
-    if (squared < 0.15f * a.squaredNorm() * b.squaredNorm()) continue;  // a sliver: less than 23°
+    const bool in_band =
+        (a2 >= min_squared) & (a2 <= max_squared) & (b2 >= min_squared) & (b2 <= max_squared);
+    if (!(in_band & (squared >= 0.15f * a2 * b2))) continue;  // a sliver: less than 23°
     normal /= std::sqrt(squared);
     float rho = normal.dot(p);
     if (rho < 0) {
@@ -164,12 +167,14 @@ FittedPlane fit(const std::vector<Point>& points, const std::vector<std::uint32_
 /// Three robust standard deviations of the points' distances, from their median.
 double trimmed_band(const std::vector<Point>& points, const std::vector<std::uint32_t>& chosen,
                     const FittedPlane& plane, double limit) {
-  std::vector<double> distances(chosen.size());
+  const Eigen::Vector3f normal = plane.normal.cast<float>();
+  const float rho = static_cast<float>(plane.rho_m);
+  std::vector<float> distances(chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i)
-    distances[i] = std::abs(plane.normal.dot(points[chosen[i]].cast<double>()) - plane.rho_m);
+    distances[i] = std::abs(normal.dot(points[chosen[i]]) - rho);
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
-  return std::clamp(3 * 1.4826 * *middle, 0.01, limit);
+  return std::clamp(3 * 1.4826 * static_cast<double>(*middle), 0.01, limit);
 }
 
 /// What became of a candidate.
@@ -215,10 +220,14 @@ Grown grow(const std::vector<Point>& points, const std::vector<Point>& all, cons
     });
   };
   std::size_t beside = 0;
+  const Eigen::Vector3f normal = patch.normal.cast<float>();
+  const float rho = static_cast<float>(patch.rho_m), nearest = static_cast<float>(1.5 * band),
+              farthest = static_cast<float>(3.5 * band);
   for (const Point& point : all) {
+    const float distance = std::abs(normal.dot(point) - rho);
+    if (!((distance > nearest) & (distance <= farthest))) continue;
     const Vec3 p = point.cast<double>();
-    const double distance = std::abs(patch.distance(p));
-    if (distance > 1.5 * band && distance <= 3.5 * band && patch.covers(p) && !across(p)) ++beside;
+    beside += patch.covers(p) && !across(p);
   }
   return static_cast<double>(beside) > 0.8 * static_cast<double>(inside.size()) ? Grown::kRim : Grown::kPlane;
 }
@@ -253,11 +262,12 @@ std::vector<PlanePatch> detect_planes(std::span<const Point> points, const Hough
     }
     // A rim's points are taken out like a plane's: they would only be drawn again.
     taken.assign(near.points().size(), 0);
-    const double reach = std::max(1.5 * patch.band_m, 0.03);
+    const double reach = grown == Grown::kRim ? patch.band_m : std::max(1.5 * patch.band_m, 0.03);
+    const Eigen::Vector3f normal = patch.normal.cast<float>();
+    const float rho = static_cast<float>(patch.rho_m), limit = static_cast<float>(reach);
     for (std::size_t i = 0; i < taken.size(); ++i) {
-      const Vec3 p = near.points()[i].cast<double>();
-      taken[i] =
-          std::abs(patch.distance(p)) <= (grown == Grown::kRim ? patch.band_m : reach) && patch.covers(p);
+      const Point& p = near.points()[i];
+      taken[i] = std::abs(normal.dot(p) - rho) <= limit && patch.covers(p.cast<double>());
     }
     near.remove(taken);
     votes.clear();

@@ -18,28 +18,42 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 }  // namespace
 
 Neighbourhood::Neighbourhood(std::vector<Point> points, double edge_m) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  order.reserve(points.size());
-  const auto index = [&](float coordinate) {
-    return static_cast<std::int64_t>(std::floor(coordinate / edge_m));
-  };
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    order.emplace_back(key_of(index(points[i].x()), index(points[i].y()), index(points[i].z())), i);
-  std::sort(order.begin(), order.end());
-
-  std::vector<std::uint64_t> keys;
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || order[i].first != order[i - 1].first) {
-      keys.push_back(order[i].first);
-      voxels_.push_back({.begin = i});
-    }
-    voxels_.back().end = i + 1;
-    points_.push_back(points[order[i].second]);
-    voxel_of_.push_back(static_cast<std::uint32_t>(voxels_.size() - 1));
-  }
+  // Voxels in the order of their keys, points in the order they came: keys are sorted, points only counted.
   std::unordered_map<std::uint64_t, std::uint32_t> at;
-  at.reserve(2 * keys.size());
-  for (std::uint32_t i = 0; i < keys.size(); ++i) at.emplace(keys[i], i);
+  std::vector<std::uint64_t> keys;
+  std::vector<std::uint32_t> found_as(points.size());
+  const double scale = 1 / edge_m;
+  const auto index = [&](float coordinate) {
+    return static_cast<std::int64_t>(std::floor(static_cast<double>(coordinate) * scale));
+  };
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const std::uint64_t key = key_of(index(points[i].x()), index(points[i].y()), index(points[i].z()));
+    const auto [found, is_new] = at.try_emplace(key, static_cast<std::uint32_t>(keys.size()));
+    if (is_new) keys.push_back(key);
+    found_as[i] = found->second;
+  }
+  std::vector<std::uint32_t> place(keys.size());  // in order, of each as it was found
+  std::sort(keys.begin(), keys.end());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    std::uint32_t& known = at.find(keys[i])->second;
+    place[known] = i;
+    known = i;
+  }
+  voxels_.resize(keys.size());
+  for (const std::uint32_t found : found_as) ++voxels_[place[found]].end;
+  std::uint32_t begin = 0;
+  for (Voxel& voxel : voxels_) {
+    voxel.begin = begin;
+    begin += voxel.end;
+    voxel.end = voxel.begin;
+  }
+  points_.resize(points.size());
+  voxel_of_.resize(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const std::uint32_t voxel = place[found_as[i]];
+    points_[voxels_[voxel].end] = points[i];
+    voxel_of_[voxels_[voxel].end++] = voxel;
+  }
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
     voxels_[i].first_neighbour = static_cast<std::uint32_t>(neighbours_.size());
     const std::uint64_t x = keys[i] >> (2 * kAxisBits), y = (keys[i] >> kAxisBits) & kAxisMask,
@@ -54,6 +68,7 @@ Neighbourhood::Neighbourhood(std::vector<Point> points, double edge_m) {
         }
     voxels_[i].neighbour_count = static_cast<std::uint32_t>(neighbours_.size()) - voxels_[i].first_neighbour;
   }
+  up_to_.resize(neighbours_.size());
   count_around();
 }
 
@@ -66,19 +81,17 @@ void Neighbourhood::count_around() {
     for (std::uint32_t n = 0; n < voxel.neighbour_count; ++n) {
       const Voxel& neighbour = voxels_[neighbours_[voxel.first_neighbour + n]];
       voxel.around += neighbour.end - neighbour.begin;
+      up_to_[voxel.first_neighbour + n] = voxel.around;
     }
   }
 }
 
 std::uint32_t Neighbourhood::draw(std::uint32_t i, Random& random) const {
   const Voxel& voxel = voxels_[voxel_of_[i]];
-  auto skip = static_cast<std::uint32_t>(random.below(static_cast<int>(voxel.around)));
-  for (std::uint32_t n = 0;; ++n) {
-    const Voxel& neighbour = voxels_[neighbours_[voxel.first_neighbour + n]];
-    const std::uint32_t count = neighbour.end - neighbour.begin;
-    if (skip < count) return neighbour.begin + skip;
-    skip -= count;
-  }
+  const auto skip = static_cast<std::uint32_t>(random.below(static_cast<int>(voxel.around)));
+  std::uint32_t n = voxel.first_neighbour;
+  while (up_to_[n] <= skip) ++n;
+  return voxels_[neighbours_[n]].end - (up_to_[n] - skip);
 }
 
 std::uint32_t Neighbourhood::draw_by_place(Random& random) const {

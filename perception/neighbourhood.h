@@ -37,6 +37,7 @@ class Neighbourhood {
   std::vector<std::uint32_t> voxel_of_;  ///< of each point
   std::vector<Voxel> voxels_;
   std::vector<std::uint32_t> neighbours_;
+  std::vector<std::uint32_t> up_to_;   ///< points of a voxel's neighbours up to and with this one
   std::vector<std::uint32_t> filled_;  ///< voxels that still have points
 };
 
