@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -71,20 +72,32 @@ struct FastPatch {
   }
 };
 
+/// Which planes have a point within their bands: a bit for each of the first ones, the last bit for all
+/// others.
+using NearPlanes = std::uint32_t;
+constexpr std::size_t kBits = 31;
+NearPlanes bit_of(std::size_t plane) {
+  return NearPlanes{1} << std::min(plane, kBits);
+}
+
 /// The nearest plane whose patch the point is on, or patches.size(); `disputed` when it is also on or
 /// beside one that stands across.
-std::size_t nearest_patch(const std::vector<FastPatch>& patches, float x, float y, float z, float& least,
-                          bool& disputed) {
+std::size_t nearest_patch(const std::vector<FastPatch>& patches, NearPlanes asked, float x, float y, float z,
+                          float& least, bool& disputed) {
   std::size_t best = patches.size(), near[8], count = 0;
   least = 1e30f;
-  for (std::size_t k = 0; k < patches.size() && count < std::size(near); ++k) {
+  const auto look_at = [&](std::size_t k) {
     const float distance = patches[k].distance(x, y, z);
-    if (distance > patches[k].band || !patches[k].is_beside(x, y, z)) continue;
-    near[count++] = k;
-    if (distance >= least || !patches[k].covers(x, y, z)) continue;
+    if (distance > patches[k].band || !patches[k].is_beside(x, y, z)) return;
+    if (count < std::size(near)) near[count++] = k;
+    if (distance >= least || !patches[k].covers(x, y, z)) return;
     least = distance;
     best = k;
-  }
+  };
+  for (NearPlanes left = asked & (bit_of(kBits) - 1); left != 0; left &= left - 1)
+    look_at(static_cast<std::size_t>(std::countr_zero(left)));
+  if (asked & bit_of(kBits))
+    for (std::size_t k = kBits; k < patches.size(); ++k) look_at(k);
   disputed = best < patches.size() && std::any_of(near, near + count, [&](std::size_t k) {
                return std::abs(patches[k].patch->normal.dot(patches[best].patch->normal)) < 0.5;
              });
@@ -94,7 +107,8 @@ std::size_t nearest_patch(const std::vector<FastPatch>& patches, float x, float 
 void add_chunk(const std::vector<FastPatch>& patches, std::span<const Point> points, const Point& centre,
                std::vector<Gathered>& gathered) {
   float x[kBlock], y[kBlock], z[kBlock], nearest[kBlock];
-  std::int32_t owner[kBlock], near[kBlock];
+  std::int32_t owner[kBlock];
+  NearPlanes near[kBlock];
   for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
@@ -106,14 +120,15 @@ void add_chunk(const std::vector<FastPatch>& patches, std::span<const Point> poi
       owner[i] = -1;
       near[i] = 0;
     }
-    // The nearest plane, and how many are near, whether or not their patches are there: that is asked below.
+    // The nearest plane, and which are near, whether or not their patches are there: that is asked below.
     for (std::size_t k = 0; k < patches.size(); ++k) {
       const FastPatch& plane = patches[k];
+      const std::size_t bit = std::min(k, kBits);
       for (std::size_t i = 0; i < count; ++i) {
         const float distance = std::abs(plane.nx * x[i] + plane.ny * y[i] + plane.nz * z[i] - plane.rho);
         const bool close = distance <= plane.band;
         const bool closer = (distance < nearest[i]) & close;
-        near[i] += close;
+        near[i] |= static_cast<NearPlanes>(close) << bit;
         nearest[i] = closer ? distance : nearest[i];
         owner[i] = closer ? static_cast<std::int32_t>(k) : owner[i];
       }
@@ -123,8 +138,8 @@ void add_chunk(const std::vector<FastPatch>& patches, std::span<const Point> poi
       auto best = static_cast<std::size_t>(owner[i]);
       float distance = nearest[i];
       bool disputed = false;
-      if (near[i] > 1) {
-        best = nearest_patch(patches, x[i], y[i], z[i], distance, disputed);
+      if ((near[i] & (near[i] - 1)) != 0 || near[i] == bit_of(kBits)) {
+        best = nearest_patch(patches, near[i], x[i], y[i], z[i], distance, disputed);
         if (best == patches.size()) continue;
       } else if (!patches[best].covers(x[i], y[i], z[i])) {
         continue;
