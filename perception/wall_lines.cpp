@@ -52,19 +52,45 @@ std::vector<WallLine> merged(const std::vector<PlanePatch>& planes, const Storey
   return lines;
 }
 
-void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const Storey& storey,
-                     const WallOptions& options) {
+/// How steeply up each scan looks: tangent of the elevation that few of its points exceed.
+std::vector<double> views_up(const RegisteredCloud& cloud) {
+  std::vector<double> tangents;
+  for (const RegisteredCloud::Part& part : cloud.parts) {
+    std::vector<double> list;
+    const std::size_t step = std::max<std::size_t>(1, (part.end - part.begin) / 2000);
+    for (std::size_t i = part.begin; i < part.end; i += step) {
+      const Vec3 ray = cloud.points_m[i].cast<double>() - part.scanner_m;
+      list.push_back(ray.z() / std::max(1e-6, ray.head<2>().norm()));
+    }
+    if (list.empty()) list.push_back(0);
+    const auto high = list.begin() + static_cast<std::ptrdiff_t>(list.size() * 49 / 50);
+    std::nth_element(list.begin(), high, list.end());
+    tangents.push_back(*high);
+  }
+  return tangents;
+}
+
+void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const std::vector<double>& up,
+                     const Storey& storey, const WallOptions& options) {
   const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
   const Vec2 direction = line.direction();
   const double low = storey.ceiling_z_m - options.top_band_m, high = storey.ceiling_z_m - 0.04;
   const double bottom = storey.floor_z_m + 0.1;
-  std::vector<double> places, under;  // along the line: points under the ceiling, and all below them
-  for (std::size_t i = 0; i < cloud.points_m.size(); i += step) {
-    const Point& p = cloud.points_m[i];
-    if (p.z() < bottom || p.z() > high) continue;
-    const Vec2 plan(p.x(), p.y());
-    if (std::abs(line.distance(p.cast<double>(), storey)) <= line.band_m)
-      (p.z() < low ? under : places).push_back(direction.dot(plan));
+  // Along the line: points under the ceiling, and all below them of scans that could see up there. One that
+  // stands close to a column has most of its points, and none near the ceiling.
+  std::vector<double> places, under;
+  for (std::size_t k = 0; k < cloud.parts.size(); ++k) {
+    const RegisteredCloud::Part& part = cloud.parts[k];
+    for (std::size_t i = part.begin; i < part.end; i += step) {
+      const Point& p = cloud.points_m[i];
+      if (p.z() < bottom || p.z() > high) continue;
+      const Vec2 plan(p.x(), p.y());
+      if (std::abs(line.distance(p.cast<double>(), storey)) > line.band_m) continue;
+      if (p.z() >= low)
+        places.push_back(direction.dot(plan));
+      else if (part.scanner_m.z() + up[k] * (plan - part.scanner_m.head<2>()).norm() >= high)
+        under.push_back(direction.dot(plan));
+    }
   }
   line.wall.clear();
   if (places.empty()) return;
@@ -116,7 +142,8 @@ double WallLine::wall_share(const Vec2& a, const Vec2& b) const {
 std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
                                  const Storey& storey, const WallOptions& options) {
   std::vector<WallLine> lines = merged(planes, storey, options);
-  for (WallLine& line : lines) gather_evidence(line, cloud, storey, options);
+  const std::vector<double> up = views_up(cloud);
+  for (WallLine& line : lines) gather_evidence(line, cloud, up, storey, options);
   std::erase_if(lines, [&](const WallLine& line) {
     const auto columns = std::count(line.wall.begin(), line.wall.end(), 1);
     return static_cast<double>(columns) * line.column_m < options.min_length_m;
