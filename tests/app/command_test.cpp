@@ -84,6 +84,75 @@ TEST_CASE("one bad room is said and derived instead: exit 4") {
   CHECK(read_file(project.model()).substr(0, 4) == "glTF");
 }
 
+TEST_CASE("one bad room is left out of what compress packs: exit 4; nothing but bad rooms: exit 1") {
+  const Project project;
+  const fs::path scans = project.office() / "scans", packed = project.folder() / "packed";
+  const auto compress = [&] {
+    return project.run("compress '" + project.office().string() + "' -o '" + packed.string() + "'");
+  };
+  project.write(project.scans("N1") / "scan000.xyz", "1 2 3\nnan 1 2\n");
+  const auto result = compress();
+  CHECK_MESSAGE(result.code == 4, result.error);
+  CHECK_MESSAGE(has(result.error, "scan000.xyz:2"), result.error);
+  CHECK(!fs::exists(packed / "N1"));
+  std::size_t rooms = 0;
+  for (const auto& room : fs::directory_iterator(scans)) {
+    if (room.path().filename() == "N1") continue;
+    ++rooms;
+    for (const auto& scan : fs::directory_iterator(room.path())) {
+      fs::path name = scan.path().filename();
+      if (name.extension() == ".xyz") name.replace_extension(".gpc");
+      CHECK_MESSAGE(fs::exists(packed / room.path().filename() / name), name.string());
+    }
+  }
+  CHECK(rooms == 5);
+  // What was packed is a floor's scans: the bad room is derived, the others are as they were.
+  fs::remove_all(scans);
+  fs::rename(packed, scans);
+  const auto fitted = project.fit();
+  CHECK_MESSAGE(fitted.code == 0, fitted.error);
+  CHECK(has(fitted.out, "north_1"));
+
+  for (const auto& room : fs::directory_iterator(scans))
+    for (const auto& scan : fs::directory_iterator(room.path()))
+      if (scan.path().extension() == ".gpc") project.write(scan.path(), "nothing that was ever packed");
+  CHECK(compress().code == 1);
+  CHECK(!fs::exists(packed));
+}
+
+TEST_CASE("rooms are perceived the same in any frame") {
+  const Project project;
+  const auto table = [&](const std::string& more) {
+    const std::string office = "'" + project.office().string() + "'";
+    const auto result =
+        project.run("perceive " + office + " --truth " + office + " --no-openings --no-furniture" + more);
+    CHECK_MESSAGE(result.code == 0, result.error);
+    return result.out.substr(0, result.out.find("\ndoors and windows"));
+  };
+  const auto number_after = [](const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    REQUIRE(at != std::string::npos);
+    return std::stod(text.substr(at + words.size()));
+  };
+  for (const std::string more : {"", " --own-frames 1", " --own-frames 2"}) {
+    CAPTURE(more);
+    const std::string text = table(more);
+    CHECK(has(text, "6 of 10 rooms"));
+    CHECK(number_after(text, "width and depth: mean error ") < 5);
+    CHECK(number_after(text, "height: mean error ") < 1);
+    CHECK(number_after(text, "walls found: at least ") == 100);
+    CHECK(number_after(text, "false walls: ") == 0);
+  }
+  CHECK(table(" --own-frames 1") == table(" --own-frames 1"));
+  // The frames are other ones: the outline, unlike the table, says so.
+  const auto outline = [&](const std::string& more) {
+    return project.run("perceive '" + project.scans("N1").string() + "' --no-openings --no-furniture" + more)
+        .out;
+  };
+  CHECK(outline("") != outline(" --own-frames 1"));
+  CHECK(outline(" --own-frames 1") != outline(" --own-frames 2"));
+}
+
 TEST_CASE("what was seen and has no place in the model is said, and kept in it: exit 4") {
   const Project project;
   // Nothing of a window stands below a ceiling this low.
