@@ -167,7 +167,8 @@ std::optional<Result> run(const PlaneMethod& method, const Scene& scene, const s
   const pid_t child = ::fork();
   if (child == 0) {
     const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
-    tbb::parallel_for(0, 2, [](int) {});  // the scheduler's start is once a process, and no part of any method
+    tbb::parallel_for(0, 2,
+                      [](int) {});  // the scheduler's start is once a process, and no part of any method
     const double begin = cpu_seconds();
     const std::vector<FoundPlane> planes = method.detect(points);
     const double cpu_s = cpu_seconds() - begin;
