@@ -61,7 +61,7 @@ MeasuredRoom measure_room(RoomOutline& outline, std::vector<WallLine>& lines, St
     room.plane_of_edge.clear();
     for (const int line : outline.lines)
       room.plane_of_edge.push_back(plane_of_line[static_cast<std::size_t>(line)]);
-    RoomFaces faces{room.planes, outline.ring, std::vector<std::vector<Stretch>>(room.planes.size())};
+    RoomFaces faces{room.planes, outline.ring, std::vector<std::vector<FaceStretch>>(room.planes.size())};
     for (std::size_t i = 0; i < edges; ++i) {
       const AdjustedPlane& plane = room.planes[static_cast<std::size_t>(room.plane_of_edge[i])];
       const double a = plane.u.head<2>().dot(outline.ring[i] - plane.middle.head<2>());

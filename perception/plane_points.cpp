@@ -32,7 +32,7 @@ class FaceCells {
       for (const Vec2& corner : faces.ring) widen(on_plane(Vec3(corner.x(), corner.y(), plane_.middle.z())));
     } else {
       const double reach = faces.planes[1].middle.z() - faces.planes[0].middle.z();
-      for (const Stretch& s : faces.stretches[plane]) widen({s.from, -reach}), widen({s.to, reach});
+      for (const FaceStretch& s : faces.stretches[plane]) widen({s.from, -reach}), widen({s.to, reach});
     }
     if (low.x() > high.x()) low = high = Vec2::Zero();
     low_ = low;
@@ -68,7 +68,7 @@ bool RoomFaces::covers(std::size_t plane, const Vec3& place) const {
   if (!(place.z() > planes[0].middle.z() + 0.1 && place.z() < planes[1].middle.z() - 0.1)) return false;
   const double along = planes[plane].u.dot(place - planes[plane].middle);
   return std::any_of(stretches[plane].begin(), stretches[plane].end(),
-                     [&](const Stretch& s) { return along >= s.from && along <= s.to; });
+                     [&](const FaceStretch& s) { return along >= s.from && along <= s.to; });
 }
 
 std::optional<Meeting> meeting(const AdjustedPlane& plane, const Vec3& scanner, const Vec3& point) {

@@ -10,7 +10,7 @@
 namespace gramap {
 
 /// A piece of a wall, in metres along the plane's `u` from its `middle`.
-struct Stretch {
+struct FaceStretch {
   double from, to;
 };
 
@@ -19,8 +19,8 @@ struct Stretch {
 struct RoomFaces {
   const std::vector<AdjustedPlane>& planes;
   const Polygon& ring;
-  std::vector<std::vector<Stretch>> stretches;  ///< by plane
-  bool level_ceiling = true;                    ///< false: the ceiling is sloped, and not measured
+  std::vector<std::vector<FaceStretch>> stretches;  ///< by plane
+  bool level_ceiling = true;                        ///< false: the ceiling is sloped, and not measured
 
   bool covers(std::size_t plane, const Vec3& place) const;
 };
