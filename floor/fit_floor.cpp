@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -296,32 +295,37 @@ void add_doors(const FloorGroundTruth& floor, const RuleSet& rules,
 
 /// How many rooms show no door to a hallway depends on the walk: who passes closed doors flush with the wall
 /// sees few. Of three shares, with what is thought of each beforehand, the one is taken under which the floor
-/// is most probable.
+/// is most probable. A share that the spaces so far make a thousand times less probable than the best is out
+/// of the race (Wald's sequential test), so that a large floor is not asked as a whole.
 FitOptions with_doorless_share(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                                FitOptions options) {
   struct Share {
-    double doorless, prior;
+    double doorless, score;
   };
-  constexpr Share kShares[] = {{0.003, 0.80}, {0.03, 0.16}, {0.2, 0.04}};
-  const bool any = std::any_of(problems.begin(), problems.end(),
-                               [](const SpaceProblem& problem) { return !problem.doors_visible.empty(); });
-  if (!any) return options;
-  // Each space by itself, so that the sum does not depend on the threads.
-  constexpr std::size_t shares = std::size(kShares);
-  std::vector<double> likelihoods(shares * problems.size(), 0);
-  tbb::parallel_for(std::size_t{0}, likelihoods.size(), [&](std::size_t i) {
-    const SpaceProblem& problem = problems[i / shares];
-    FitOptions tried = options;
-    tried.doorless_share = kShares[i % shares].doorless;
-    if (!problem.doors_visible.empty()) likelihoods[i] = quick_likelihood(rules, problem, tried);
-  });
-  double scores[shares] = {};
-  for (std::size_t i = 0; i < likelihoods.size(); ++i)
-    if (std::isfinite(likelihoods[i]))
-      scores[i % shares] += likelihoods[i];  // else the fit itself will say so
-  for (std::size_t i = 0; i < shares; ++i) scores[i] += std::log(kShares[i].prior);
-  options.doorless_share =
-      kShares[std::max_element(std::begin(scores), std::end(scores)) - std::begin(scores)].doorless;
+  std::vector<Share> shares = {{0.003, std::log(0.80)}, {0.03, std::log(0.16)}, {0.2, std::log(0.04)}};
+  const double sure = std::log(1000);
+  constexpr std::size_t kBatch = 8;  // spaces, whatever the threads
+  std::vector<const SpaceProblem*> shown;
+  for (const SpaceProblem& problem : problems)
+    if (!problem.doors_visible.empty()) shown.push_back(&problem);
+  if (shown.empty()) return options;
+  const auto likelier = [](const Share& a, const Share& b) { return a.score < b.score; };
+  for (std::size_t begin = 0; begin < shown.size() && shares.size() > 1; begin += kBatch) {
+    const std::size_t count = shares.size();
+    // Each space by itself, so that the sum does not depend on the threads.
+    std::vector<double> likelihoods(count * std::min(kBatch, shown.size() - begin), 0);
+    tbb::parallel_for(std::size_t{0}, likelihoods.size(), [&](std::size_t i) {
+      FitOptions tried = options;
+      tried.doorless_share = shares[i % count].doorless;
+      likelihoods[i] = quick_likelihood(rules, *shown[begin + i / count], tried);
+    });
+    for (std::size_t i = 0; i < likelihoods.size(); ++i)
+      if (std::isfinite(likelihoods[i]))
+        shares[i % count].score += likelihoods[i];  // else the fit itself will say so
+    const double best = std::max_element(shares.begin(), shares.end(), likelier)->score;
+    std::erase_if(shares, [&](const Share& share) { return share.score < best - sure; });
+  }
+  options.doorless_share = std::max_element(shares.begin(), shares.end(), likelier)->doorless;
   return options;
 }
 

@@ -284,44 +284,44 @@ Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
 
 /// Density of the door's place in a room of the type that takes [first_cell, last_cell), times what its width
 /// says. Of a room's second door only the width is known beforehand.
-double Evidence::door_place(std::size_t door, int type, bool second, int first_cell, int last_cell) const {
+Evidence::DoorPlace Evidence::door_place(std::size_t door, int type, int first_cell, int last_cell) const {
   const DoorTables& tables = door_tables_[door];
   const std::size_t t = type < 0 ? rules_.rooms.size() : static_cast<std::size_t>(type);
   const double fits = tables.starts_before[t].at(first_cell) * tables.ends_after[t].at(last_cell);
-  if (fits <= 0) return 0;
+  if (fits <= 0) return {};
   const double width_m = grid_.width_m(last_cell - first_cell);
   const double anywhere = 1 / std::max(width_m - doors_[door].width_m, kSmallestSlack_m);
-  if (type < 0) return fits * anywhere;
+  if (type < 0) return {fits * anywhere, fits * anywhere};
+  const double fitting = fits * tables.width[t];
   const bool has_habit = rules_.rooms[t].door && !rules_.rooms[t].door->places.empty();
-  if (!has_habit || second) return fits * tables.width[t] * anywhere;
-  return fits * tables.width[t] *
-         (kElsewhereShare * anywhere +
-          (1 - kElsewhereShare) * (tables.from_start[t].at(first_cell) + tables.from_end[t].at(last_cell)));
+  if (!has_habit) return {fitting * anywhere, fitting * anywhere};
+  const double habit = tables.from_start[t].at(first_cell) + tables.from_end[t].at(last_cell);
+  return {fitting * (kElsewhereShare * anywhere + (1 - kElsewhereShare) * habit), fitting * anywhere};
 }
 
 double Evidence::doors(int type, int first_cell, int last_cell) const {
-  const Extent room{grid_.position_m(first_cell), grid_.position_m(last_cell) - grid_.wall_m};
+  const double gross_m = (last_cell - first_cell) * grid_.step_m;
   const auto first = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(first_cell)]);
   const auto last = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(last_cell)]);
-  const double length_m = grid_.cells * grid_.step_m;
   const double seen_m =
       visible_[static_cast<std::size_t>(last_cell)] - visible_[static_cast<std::size_t>(first_cell)];
-  const double seen = std::clamp(seen_m / (room.width_m() + grid_.wall_m), 0.0, 1.0);
+  const double seen = std::clamp(seen_m / gross_m, 0.0, 1.0);
   const double none = options_.doorless_share + (1 - options_.doorless_share) * (1 - seen);
   if (first == last) return none;
 
   const double one = 1 - options_.doorless_share - options_.second_door_share;
-  const double lone_false = options_.false_door_share / length_m;
-  double all_false = none;
+  const double lone_false = options_.false_door_share / (grid_.cells * grid_.step_m);
+  double all_false = 1;
   double one_real = 0;
   double all_real = options_.second_door_share;
   for (std::size_t i = first; i < last; ++i) {
-    one_real = one_real * lone_false + all_false / none * door_place(i, type, false, first_cell, last_cell);
+    const DoorPlace place = door_place(i, type, first_cell, last_cell);
+    one_real = one_real * lone_false + all_false * place.first;
     all_false *= lone_false;
-    all_real *= door_place(i, type, true, first_cell, last_cell);
+    all_real *= place.other;
     if (i >= first + 2) all_real *= kThirdDoorShare;
   }
-  return all_false + one * one_real + (last - first >= 2 ? all_real : 0);
+  return none * all_false + one * one_real + (last - first >= 2 ? all_real : 0);
 }
 
 }  // namespace gramap

@@ -112,10 +112,16 @@ class Evidence {
     std::vector<double> width;  // by type: how much more likely a door of its width is than any other
   };
 
+  /// Densities of a door's place in a room.
+  struct DoorPlace {
+    double first = 0;  ///< when it is the room's first door
+    double other = 0;  ///< when it is another one
+  };
+
   template <class Function>
   WindowTable tabulate(double least_m, double most_m, double before, double after, Function f) const;
   DoorTables door_tables(const DoorEvidence& door) const;
-  double door_place(std::size_t door, int type, bool second, int first_cell, int last_cell) const;
+  DoorPlace door_place(std::size_t door, int type, int first_cell, int last_cell) const;
 
   const RuleSet& rules_;
   FitOptions options_;

@@ -66,8 +66,8 @@ std::vector<WidthMass> mixture_mass(const Mixture& mixture, const Grid& grid) {
   return stretches;
 }
 
-Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence)
-    : row_(row), grid_(grid), evidence_(evidence) {
+Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence, Passes passes)
+    : row_(row), grid_(grid), evidence_(evidence), passes_(passes) {
   const int n = grid.cells;
   const auto& rooms = evidence.rooms();
   const int count = static_cast<int>(rooms.size());
@@ -243,8 +243,8 @@ double Lattice::doors(int cell, const Element& element, int width) const {
   return likelihood;
 }
 
-/// Adds the parts of the stretch that end where something is alive; returns how many values were made.
-std::size_t Lattice::add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const {
+/// Adds the parts of the stretch that end where something is alive.
+void Lattice::add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const {
   const Element& placed = row_.elements[static_cast<std::size_t>(element)];
   const ElementRoom& room = placed.rooms.front();
   const bool plain = placed.rooms.size() == 1 && room.at_hallway && room.start.constant == 0 &&
@@ -259,7 +259,6 @@ std::size_t Lattice::add_stretch(int cell, int element, Prior::Stretch stretch, 
     }
     return stretch.count;
   };
-  std::size_t made = 0;
   for (int begin = alive_from(0); begin < stretch.count;) {
     int end = begin + 1;
     int next = alive_from(end);
@@ -270,47 +269,52 @@ std::size_t Lattice::add_stretch(int cell, int element, Prior::Stretch stretch, 
     Prior::Stretch part{stretch.first + begin * stretch.stride, stretch.stride, end - begin,
                         stretch.mass + begin};
     if (evidence_.has_doors()) {
-      std::vector<double>& seen = prior.seen.emplace_back(static_cast<std::size_t>(part.count), 0);
+      const std::size_t seen = prior.seen.size();
       for (int i = 0; i < part.count; ++i) {
-        if (part.mass[i] <= 0) continue;
         const int width = part.first + i * part.stride;
-        seen[static_cast<std::size_t>(i)] =
-            part.mass[i] *
-            (plain ? evidence_.doors(room.type, cell, cell + width) : doors(cell, placed, width));
+        const auto likelihood = [&] {
+          return plain ? evidence_.doors(room.type, cell, cell + width) : doors(cell, placed, width);
+        };
+        prior.seen.push_back(part.mass[i] > 0 ? part.mass[i] * likelihood() : 0);
       }
-      made += seen.size();
-      part.mass = seen.data();
+      part.mass = prior.seen.data() + seen;
     }
     prior.stretches.push_back(part);
     begin = next;
   }
-  return made;
 }
 
 std::size_t Lattice::make_prior(int cell, int element, Prior& prior) const {
   prior.stretches.clear();
   prior.seen.clear();
   const int rest = grid_.cells - cell;
-  std::size_t made = sizeof(Prior) / sizeof(double);
-  for (const WidthMass& mass : widths(cell, element, prior.made)) {
+  const std::vector<WidthMass>& masses = widths(cell, element, prior.made);
+  std::size_t most = 0;
+  for (const WidthMass& mass : masses) most += mass.mass.size();
+  if (evidence_.has_doors()) prior.seen.reserve(most);  // the stretches point into it
+  for (const WidthMass& mass : masses) {
     if (mass.first > rest) continue;
     const int count = std::min(static_cast<int>(mass.mass.size()), (rest - mass.first) / mass.stride + 1);
-    made += add_stretch(cell, element, {mass.first, mass.stride, count, mass.mass.data()}, prior);
+    add_stretch(cell, element, {mass.first, mass.stride, count, mass.mass.data()}, prior);
   }
+  std::size_t made = sizeof(Prior) / sizeof(double) + prior.seen.size();
   for (const WidthMass& mass : prior.made) made += mass.mass.size();
   return made;
 }
 
 const Prior& Lattice::prior(int cell, int element) const {
   const std::size_t elements = row_.elements.size();
-  if (kept_.empty()) kept_.resize((static_cast<std::size_t>(grid_.cells) + 1) * elements);
-  std::unique_ptr<Prior>& kept =
-      kept_[static_cast<std::size_t>(cell) * elements + static_cast<std::size_t>(element)];
-  if (kept != nullptr) return *kept;
-  if (kept_values_ < kMostKeptValues) {
-    kept = std::make_unique<Prior>();
-    kept_values_ += make_prior(cell, element, *kept);
-    return *kept;
+  if (passes_ == Passes::several && kept_.empty())
+    kept_.resize((static_cast<std::size_t>(grid_.cells) + 1) * elements);
+  if (passes_ == Passes::several) {
+    std::unique_ptr<Prior>& kept =
+        kept_[static_cast<std::size_t>(cell) * elements + static_cast<std::size_t>(element)];
+    if (kept != nullptr) return *kept;
+    if (kept_values_ < kMostKeptValues) {
+      kept = std::make_unique<Prior>();
+      kept_values_ += make_prior(cell, element, *kept);
+      return *kept;
+    }
   }
   last_.resize(elements);
   LastPrior& last = last_[static_cast<std::size_t>(element)];

@@ -62,13 +62,16 @@ struct Prior {
   };
   std::vector<Stretch> stretches;
   std::vector<WidthMass> made;  ///< what the stretches point to, as far as it is not the same everywhere
-  std::vector<std::vector<double>> seen;  ///< and with doors
+  std::vector<double> seen;     ///< and with doors; of fixed capacity
 };
 
 /// Not for several threads at once: what one pass has worked out is kept for the next.
 class Lattice {
  public:
-  Lattice(const Row& row, const Grid& grid, const Evidence& evidence);
+  /// How often its edges are asked for: what is asked for once only is not kept.
+  enum class Passes { one, several };
+
+  Lattice(const Row& row, const Grid& grid, const Evidence& evidence, Passes passes = Passes::several);
 
   const Row& row() const { return row_; }
   const Grid& grid() const { return grid_; }
@@ -126,7 +129,7 @@ class Lattice {
 
  private:
   std::size_t make_prior(int cell, int element, Prior& prior) const;
-  std::size_t add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const;
+  void add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const;
   double doors(int cell, const Element& element, int width) const;
   void uniform_mass(const Element& element, int cell, std::vector<WidthMass>& made) const;
   bool needs_fine_steps(int cell, int first, int last) const;
@@ -134,6 +137,7 @@ class Lattice {
   const Row& row_;
   Grid grid_;
   const Evidence& evidence_;
+  Passes passes_;
   std::vector<std::vector<WidthMass>> masses_;  // of mixtures, by element
   std::vector<int>
       fine_before_;  // [cell]: cells before it where walls may be known to better than a coarse step
@@ -155,7 +159,7 @@ class Lattice {
   };
   mutable std::vector<std::unique_ptr<Prior>> kept_;  // [cell * elements + element]
   mutable std::size_t kept_values_ = 0;
-  mutable std::vector<LastPrior> last_;  // [element]; when there are too many to keep
+  mutable std::vector<LastPrior> last_;  // [element]; of those that are not kept
 };
 
 /// The edges that leave a cell; made when asked for, kept until another cell is asked for.

@@ -12,7 +12,7 @@ namespace {
 double log_sum(const RuleSet& rules, const Row& row, const Grid& grid, const SpaceProblem& problem,
                const FitOptions& options) {
   const Evidence evidence(rules, problem, options, grid);
-  const Lattice lattice(row, grid, evidence);
+  const Lattice lattice(row, grid, evidence, Lattice::Passes::one);
   return log_total(lattice, forward(lattice));
 }
 
