@@ -62,6 +62,35 @@ void set_window(PreparedEvidence& e, const Grid& grid) {
   e.last_start = std::clamp(to_cell(last, grid) + 1, -1, grid.cells - 1);
 }
 
+/// f(first), …, f(last), and what it is before and after these.
+template <class Function>
+WindowTable tabulated(int first, int last, double before, double after, Function f) {
+  WindowTable table{first, {}, before, after};
+  for (int i = first; i <= last; ++i) table.values.push_back(f(i));
+  return table;
+}
+
+/// The Gaussians of all readings; see `Evidence::reading`, which says the same for any extent.
+void set_densities(PreparedEvidence& e, const Grid& grid) {
+  const double h = grid.step_m;
+  /// Of a quantity that is `least_m` at 0 and grows by `pace_m` with each cell.
+  const auto density = [](double read_m, double sd_m, double least_m, double pace_m, int most) {
+    const auto index = [&](double value_m) {
+      return std::clamp((value_m - least_m) / pace_m, -1.0, most + 1.0);
+    };
+    return tabulated(static_cast<int>(index(read_m - kGateSigmas * sd_m)),
+                     static_cast<int>(index(read_m + kGateSigmas * sd_m)) + 1, 0, 0,
+                     [&](int i) { return gauss(read_m, least_m + i * pace_m, sd_m); });
+  };
+  e.width_density = density(e.width_m, e.width_sd_m, -grid.wall_m, h, grid.cells);
+  if (e.has_other) e.other_density = density(e.other_m, e.other_sd_m, -grid.wall_m, h, grid.cells);
+  e.centre_density = {0, {}, 1, 1};
+  if (!e.has_centre) return;
+  e.start_density = density(e.start_wall_m(), e.wall_sd_m, 0, h, grid.cells);
+  e.end_density = density(e.end_wall_m(), e.wall_sd_m, -grid.wall_m, h, grid.cells);
+  e.centre_density = density(e.centre_m, e.centre_sd_m, -0.5 * grid.wall_m, 0.5 * h, 2 * grid.cells);
+}
+
 }  // namespace
 
 Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options,
@@ -106,6 +135,7 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
       e.aside *= even;
     }
     set_window(e, grid);
+    set_densities(e, grid);
     rooms_.push_back(std::move(e));
   }
   if (!in_order)
@@ -186,45 +216,49 @@ double Evidence::belongs(const PreparedEvidence& e, const Extent& room) const {
 
 bool Evidence::belongs(const PreparedEvidence& e, int cell, int first, int stride, int count,
                        double* weights) const {
-  const double start_m = grid_.position_m(cell);
-  const double first_width_m = grid_.width_m(first);
-  const double pace_m = stride * grid_.step_m;
+  const double known = 1 - options_.outlier_share;
+  const double whole = known * (1 - options_.cut_off_share - options_.missed_wall_share);
   bool any = false;
   std::fill(weights, weights + count, 0);
   // Each reading is possible for a short stretch of widths only.
-  const auto add = [&](Reading how, double least_m, double most_m) {
-    const int from = static_cast<int>(std::clamp((least_m - first_width_m) / pace_m - 1, 0.0, 1.0 * count));
-    const int to = static_cast<int>(std::clamp((most_m - first_width_m) / pace_m + 2, 0.0, 1.0 * count));
-    for (int i = from; i < to; ++i) {
-      const double width_m = grid_.width_m(first + i * stride);
-      const double weight = reading(e, how, {start_m, start_m + width_m});
+  const auto add = [&](int least, int most, auto&& density) {
+    const int from = std::max(0, (least - first + stride - 1) / stride);
+    const int to = std::min(count - 1, (most - first) / stride);
+    for (int i = from; i <= to; ++i) {
+      const double weight = density(first + i * stride);
       weights[i] += weight;
       any = any || weight > 0;
     }
   };
-  add(Reading::whole, e.width_m - kGateSigmas * e.width_sd_m, e.width_m + kGateSigmas * e.width_sd_m);
-  if (e.has_other)
-    add(Reading::swapped, e.other_m - kGateSigmas * e.other_sd_m, e.other_m + kGateSigmas * e.other_sd_m);
+  const auto add_whole = [&](const WindowTable& widths, double factor) {
+    add(widths.first, widths.last(),
+        [&](int width) { return factor * widths.at(width) * e.centre_density.at(2 * cell + width); });
+  };
+  add_whole(e.width_density, (e.has_other ? 0.5 : 1) * e.depth_factor * whole);
+  if (e.has_other) add_whole(e.other_density, 0.5 * e.swapped_depth_factor * whole);
   if (!e.has_centre) return any;
-  const double wall_gate_m = kGateSigmas * e.wall_sd_m;
-  if (std::abs(e.start_wall_m() - start_m) <= wall_gate_m)
-    add(Reading::start_only, e.width_m, e.width_m + kMostCutOff_m);
-  const double end_m = e.end_wall_m() - start_m;  // the width that ends where the evidence does
-  add(Reading::end_only, std::max(e.width_m, end_m - wall_gate_m),
-      std::min(e.width_m + kMostCutOff_m, end_m + wall_gate_m));
+  const double cut_off = known * options_.cut_off_share * 0.5 * e.depth_factor / kMostCutOff_m;
+  const auto is_cut_off = [&](int width) {
+    const double cut_off_m = grid_.width_m(width) - e.width_m;
+    return cut_off_m > 0 && cut_off_m <= kMostCutOff_m;
+  };
+  const auto width_cells = [&](double width_m) {
+    return static_cast<int>(std::min((width_m + grid_.wall_m) / grid_.step_m, 1e8));
+  };
+  const int narrowest = width_cells(e.width_m);
+  const int widest = width_cells(e.width_m + kMostCutOff_m) + 1;
+  const double at_start = cut_off * e.start_density.at(cell);
+  if (at_start > 0) add(narrowest, widest, [&](int width) { return is_cut_off(width) ? at_start : 0; });
+  add(std::max(narrowest, e.end_density.first - cell), std::min(widest, e.end_density.last() - cell),
+      [&](int width) { return is_cut_off(width) ? cut_off * e.end_density.at(cell + width) : 0; });
   return any;
 }
 
 template <class Function>
-Evidence::WindowTable Evidence::tabulate(double least_m, double most_m, double before, double after,
-                                         Function f) const {
-  WindowTable table;
-  table.before = before;
-  table.after = after;
-  table.first = std::clamp(to_cell(least_m, grid_) - 1, 0, grid_.cells + 1);
-  const int last = std::clamp(to_cell(most_m, grid_) + 1, -1, grid_.cells);
-  for (int cell = table.first; cell <= last; ++cell) table.values.push_back(f(grid_.position_m(cell)));
-  return table;
+WindowTable Evidence::tabulate(double least_m, double most_m, double before, double after, Function f) const {
+  return tabulated(std::clamp(to_cell(least_m, grid_) - 1, 0, grid_.cells + 1),
+                   std::clamp(to_cell(most_m, grid_) + 1, -1, grid_.cells), before, after,
+                   [&](int cell) { return f(grid_.position_m(cell)); });
 }
 
 Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {

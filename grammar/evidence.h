@@ -38,6 +38,20 @@ struct Extent {
 /// How an evidence was read.
 enum class Reading { aside, whole, swapped, start_only, end_only, opens, closes };
 
+/// A function of a number of cells that varies within a window only; made once, asked for every room tried.
+struct WindowTable {
+  int first = 0;
+  std::vector<double> values;
+  double before = 0;
+  double after = 0;
+  int last() const { return first + static_cast<int>(values.size()) - 1; }
+  double at(int cell) const {
+    if (cell < first) return before;
+    const auto i = static_cast<std::size_t>(cell - first);
+    return i < values.size() ? values[i] : after;
+  }
+};
+
 /// A room evidence made ready: sorted, standard deviations widened by what the grid rounds off (a wall is
 /// uniform within its cell: variance step^2/12 each).
 struct PreparedEvidence {
@@ -59,6 +73,11 @@ struct PreparedEvidence {
   double swapped_depth_factor = 0;  ///< density of `width` across the line
   int first_start = 0;              ///< cells at which a room may start that explains it
   int last_start = 0;
+  WindowTable start_density;   ///< of its wall at the start, by the cell at which a room starts,
+  WindowTable end_density;     ///< of the one at the end, by the cell at which the next room starts,
+  WindowTable centre_density;  ///< of its centre, by the sum of these two cells (1 when it is not known),
+  WindowTable width_density;   ///< of its width, by the cells that a room takes,
+  WindowTable other_density;   ///< and of its other dimension, when that lies along the line
 
   double start_wall_m() const { return centre_m - 0.5 * width_m; }
   double end_wall_m() const { return centre_m + 0.5 * width_m; }
@@ -88,18 +107,6 @@ class Evidence {
   bool has_doors() const { return !visible_.empty(); }
 
  private:
-  /// A function of the cell that varies within a window only; made once, asked for every room tried.
-  struct WindowTable {
-    int first = 0;
-    std::vector<double> values;
-    double before = 0;
-    double after = 0;
-    double at(int cell) const {
-      if (cell < first) return before;
-      const auto i = static_cast<std::size_t>(cell - first);
-      return i < values.size() ? values[i] : after;
-    }
-  };
   /// One door's terms, those of the room's start (by its first cell) and those of its end (by the next room's
   /// first cell).
   struct DoorTables {

@@ -493,10 +493,7 @@ const std::vector<Move>& Edges::moves(int cell, int element, int evidence_state)
     const PreparedEvidence& e = lattice_.evidence().rooms()[static_cast<std::size_t>(next)];
     double* closed = store(stretch.count);
     for (int i = 0; i < stretch.count; ++i)
-      closed[i] =
-          stretch.mass[i] *
-          lattice_.evidence().reading(
-              e, Reading::closes, element_extent(lattice_.grid(), cell_, stretch.first + i * stretch.stride));
+      closed[i] = stretch.mass[i] * e.end_density.at(cell_ + stretch.first + i * stretch.stride);
     Stretch read = stretch;
     read.mass = closed;
     add(known.moves, 2 * (next + 1), read, closed, next);
