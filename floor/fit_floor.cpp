@@ -235,11 +235,11 @@ void fit_spaces(FittedFloor& fitted, const RuleSet& rules, const std::vector<Spa
   add_spaces(fitted, problems, fits);
 }
 
-/// ln p(evidence, length | rules) on a coarse grid, which is enough to choose between readings of a hallway;
-/// minus infinity when the space can't be filled.
-double quick_likelihood(const RuleSet& rules, const SpaceProblem& problem, FitOptions options) {
-  constexpr double coarse_m = 0.05;
-  options.grid_m = std::max(options.grid_m, coarse_m);
+/// ln p(evidence, length | rules) on a grid no finer than `grid_m`, which is enough to choose between
+/// readings of a hallway; minus infinity when the space can't be filled.
+double quick_likelihood(const RuleSet& rules, const SpaceProblem& problem, FitOptions options,
+                        double grid_m) {
+  options.grid_m = std::max(options.grid_m, grid_m);
   try {
     return log_joint(rules, problem, options);
   } catch (const InputError&) {
@@ -258,10 +258,11 @@ SpaceProblem with_shown(SpaceProblem problem, const SpaceProblem& shown) {
 /// The same of all spaces that the hallway shows the wall of.
 double score_of(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                 const std::vector<SpaceProblem>& shown, const FitOptions& options) {
+  constexpr double grid_m = 0.05;
   double score = 0;
   for (std::size_t i = 0; i < problems.size(); ++i)
     if (!shown[i].doors_visible.empty())
-      score += quick_likelihood(rules, with_shown(problems[i], shown[i]), options);
+      score += quick_likelihood(rules, with_shown(problems[i], shown[i]), options, grid_m);
   return score;
 }
 
@@ -305,6 +306,7 @@ FitOptions with_doorless_share(const RuleSet& rules, const std::vector<SpaceProb
   std::vector<Share> shares = {{0.003, std::log(0.80)}, {0.03, std::log(0.16)}, {0.2, std::log(0.04)}};
   const double sure = std::log(1000);
   constexpr std::size_t kBatch = 8;  // spaces, whatever the threads
+  constexpr double grid_m = 0.1;     // what counts is which rooms show a door, not just where
   std::vector<const SpaceProblem*> shown;
   for (const SpaceProblem& problem : problems)
     if (!problem.doors_visible.empty()) shown.push_back(&problem);
@@ -317,7 +319,7 @@ FitOptions with_doorless_share(const RuleSet& rules, const std::vector<SpaceProb
     tbb::parallel_for(std::size_t{0}, likelihoods.size(), [&](std::size_t i) {
       FitOptions tried = options;
       tried.doorless_share = shares[i % count].doorless;
-      likelihoods[i] = quick_likelihood(rules, *shown[begin + i / count], tried);
+      likelihoods[i] = quick_likelihood(rules, *shown[begin + i / count], tried, grid_m);
     });
     for (std::size_t i = 0; i < likelihoods.size(); ++i)
       if (std::isfinite(likelihoods[i]))

@@ -288,7 +288,8 @@ Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
       for (const DoorHabit::Place& place : type.door->places)
         frame_m = std::min(frame_m, place.offset.mean_m);
     add_fits(frame_m);
-    if (!type.door || type.door->places.empty()) continue;
+    tables.has_habit.push_back(type.door && !type.door->places.empty());
+    if (!tables.has_habit.back()) continue;
     double weights = 0;
     double reach = 0;
     double farthest = 0;
@@ -327,8 +328,7 @@ Evidence::DoorPlace Evidence::door_place(std::size_t door, int type, int first_c
   const double anywhere = 1 / std::max(width_m - doors_[door].width_m, kSmallestSlack_m);
   if (type < 0) return {fits * anywhere, fits * anywhere};
   const double fitting = fits * tables.width[t];
-  const bool has_habit = rules_.rooms[t].door && !rules_.rooms[t].door->places.empty();
-  if (!has_habit) return {fitting * anywhere, fitting * anywhere};
+  if (!tables.has_habit[t]) return {fitting * anywhere, fitting * anywhere};
   const double habit = tables.from_start[t].at(first_cell) + tables.from_end[t].at(last_cell);
   return {fitting * (kElsewhereShare * anywhere + (1 - kElsewhereShare) * habit), fitting * anywhere};
 }

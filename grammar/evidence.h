@@ -116,7 +116,8 @@ class Evidence {
     std::vector<WindowTable>
         from_start;  // by type: density of the place, of the places reckoned from the start
     std::vector<WindowTable> from_end;
-    std::vector<double> width;  // by type: how much more likely a door of its width is than any other
+    std::vector<bool> has_habit;  // by type: whether it says where its first door is
+    std::vector<double> width;    // by type: how much more likely a door of its width is than any other
   };
 
   /// Densities of a door's place in a room.
