@@ -57,6 +57,17 @@ void add_normal(std::vector<WidthMass>& stretches, double weight, const Normal& 
   stretches.insert(place, std::move(made));
 }
 
+int coarse_step(const Grid& grid) {
+  return std::max(1, static_cast<int>(std::lround(kCoarseStep_m / grid.step_m)));
+}
+
+/// The least and the most cells of an element of uniform width.
+std::pair<int, int> uniform_cells(const Element& element, const Grid& grid) {
+  const auto cells = [&](double width_m) { return (width_m + grid.wall_m) / grid.step_m; };
+  return {std::max(1, static_cast<int>(std::ceil(cells(element.least_m) - 1e-9))),
+          static_cast<int>(std::floor(cells(element.most_m) + 1e-9))};
+}
+
 }  // namespace
 
 std::vector<WidthMass> mixture_mass(const Mixture& mixture, const Grid& grid) {
@@ -74,12 +85,18 @@ Lattice::Lattice(const Row& row, const Grid& grid, const Evidence& evidence, Pas
 
   for (const Element& element : row.elements) {
     masses_.emplace_back();
+    even_.emplace_back();
     if (element.kind == Element::Width::mixture) {
       masses_.back() = mixture_mass(element.mixture, grid);
       for (const WidthMass& mass : masses_.back())
         longest_ = std::max(longest_, mass.first + static_cast<int>(mass.mass.size()));
     } else if (element.kind == Element::Width::uniform) {
       longest_ = std::max(longest_, static_cast<int>((element.most_m + grid.wall_m) / grid.step_m) + 1);
+      const auto [least, most] = uniform_cells(element, grid);
+      const double fine = 1.0 / (most - least + 1);
+      const auto widths = static_cast<std::size_t>(std::max(0, std::min(most, n) - least + 1));
+      even_.back() = {std::vector<double>(widths, fine),
+                      std::vector<double>(widths, fine * coarse_step(grid))};
     } else {
       longest_ = n;
     }
@@ -159,6 +176,7 @@ void Lattice::restrict(NodeMask mask) {
   mask_ = std::move(mask);
   next_alive_.clear();
   kept_.clear();
+  priors_.clear();
   last_.clear();
   kept_values_ = 0;
   if (mask_.alive.empty()) return;
@@ -190,12 +208,21 @@ bool Lattice::needs_fine_steps(int cell, int first, int last) const {
                      [&](const auto& fine) { return fine.first <= last && first <= fine.second; });
 }
 
-void Lattice::uniform_mass(const Element& element, int cell, std::vector<WidthMass>& made) const {
-  const double h = grid_.step_m;
-  const int first = std::max(1, static_cast<int>(std::ceil((element.least_m + grid_.wall_m) / h - 1e-9)));
-  const int last = static_cast<int>(std::floor((element.most_m + grid_.wall_m) / h + 1e-9));
-  const int coarse = std::max(1, static_cast<int>(std::lround(kCoarseStep_m / h)));
-  const double fine = 1.0 / (last - first + 1);
+/// Widths that are all alike, in coarse steps where nothing tells them apart.
+void Lattice::add_uniform(int cell, int element, Prior& prior) const {
+  const Element& placed = row_.elements[static_cast<std::size_t>(element)];
+  const Even& even = even_[static_cast<std::size_t>(element)];
+  const int coarse = coarse_step(grid_);
+  const auto [first, last] = uniform_cells(placed, grid_);
+  Prior::Stretch run;
+  const auto add = [&](int begin, int stride, int count, const std::vector<double>& mass) {
+    if (run.count > 0 && run.stride == stride && run.first + run.count * stride == begin) {
+      run.count += count;
+      return;
+    }
+    add_alive(cell, run, prior);
+    run = {begin, stride, count, mass.data()};
+  };
   for (int begin = first; begin <= std::min(last, grid_.cells - cell); begin += coarse) {
     const int ahead = next_alive(cell + begin) - cell - begin;
     if (ahead >= coarse) {
@@ -203,29 +230,12 @@ void Lattice::uniform_mass(const Element& element, int cell, std::vector<WidthMa
       continue;
     }
     const int stop = std::min(begin + coarse - 1, last);
-    if (coarse > 1 && stop - begin + 1 == coarse && !needs_fine_steps(cell, begin, stop)) {
-      const int middle = begin + (coarse - 1) / 2;
-      if (made.empty() || made.back().stride == 1 || made.back().last() + coarse != middle)
-        made.push_back({middle, {}, coarse});
-      made.back().mass.push_back(fine * coarse);
-    } else {
-      if (made.empty() || made.back().stride != 1 || made.back().last() + 1 != begin)
-        made.push_back({begin, {}, 1});
-      made.back().mass.insert(made.back().mass.end(), static_cast<std::size_t>(stop - begin + 1), fine);
-    }
+    if (coarse > 1 && stop - begin + 1 == coarse && !needs_fine_steps(cell, begin, stop))
+      add(begin + (coarse - 1) / 2, coarse, 1, even.coarse);
+    else
+      add(begin, 1, stop - begin + 1, even.fine);
   }
-}
-
-const std::vector<WidthMass>& Lattice::widths(int cell, int element, std::vector<WidthMass>& made) const {
-  const Element& placed = row_.elements[static_cast<std::size_t>(element)];
-  if (placed.kind == Element::Width::mixture) return masses_[static_cast<std::size_t>(element)];
-  made.clear();
-  if (placed.kind == Element::Width::uniform)
-    uniform_mass(placed, cell, made);
-  else
-    add_normal(made, 1, {placed.share.at(grid_.remaining_m(cell)), placed.share_sd_m}, grid_,
-               grid_.cells - cell);
-  return made;
+  add_alive(cell, run, prior);
 }
 
 /// Likelihood of the doors seen in the element's hallway wall.
@@ -243,61 +253,76 @@ double Lattice::doors(int cell, const Element& element, int width) const {
   return likelihood;
 }
 
+void Lattice::add_alive(int cell, const WidthMass& mass, Prior& prior) const {
+  add_alive(cell, {mass.first, mass.stride, static_cast<int>(mass.mass.size()), mass.mass.data()}, prior);
+}
+
 /// Adds the parts of the stretch that end where something is alive.
-void Lattice::add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const {
-  const Element& placed = row_.elements[static_cast<std::size_t>(element)];
-  const ElementRoom& room = placed.rooms.front();
-  const bool plain = placed.rooms.size() == 1 && room.at_hallway && room.start.constant == 0 &&
-                     room.start.slope == 0 && room.width.constant == 0 && room.width.slope == 1;
+void Lattice::add_alive(int cell, const Prior::Stretch& stretch, Prior& prior) const {
+  const int room = grid_.cells - cell - stretch.first;
+  const int count = room < 0 ? 0 : std::min(stretch.count, room / stretch.stride + 1);
   const auto cell_of = [&](int i) { return cell + stretch.first + i * stretch.stride; };
   /// The first index from `i` on whose cell is alive.
   const auto alive_from = [&](int i) {
-    while (i < stretch.count) {
+    while (i < count) {
       const int ahead = next_alive(cell_of(i)) - cell_of(i);
       if (ahead == 0) return i;
       i += (ahead + stretch.stride - 1) / stretch.stride;
     }
-    return stretch.count;
+    return count;
   };
-  for (int begin = alive_from(0); begin < stretch.count;) {
+  for (int begin = alive_from(0); begin < count;) {
     int end = begin + 1;
     int next = alive_from(end);
-    while (next < stretch.count && next - end <= kSmallGap) {
+    while (next < count && next - end <= kSmallGap) {
       end = next + 1;
       next = alive_from(end);
     }
-    Prior::Stretch part{stretch.first + begin * stretch.stride, stretch.stride, end - begin,
-                        stretch.mass + begin};
-    if (evidence_.has_doors()) {
-      const std::size_t seen = prior.seen.size();
-      for (int i = 0; i < part.count; ++i) {
-        const int width = part.first + i * part.stride;
-        const auto likelihood = [&] {
-          return plain ? evidence_.doors(room.type, cell, cell + width) : doors(cell, placed, width);
-        };
-        prior.seen.push_back(part.mass[i] > 0 ? part.mass[i] * likelihood() : 0);
-      }
-      part.mass = prior.seen.data() + seen;
-    }
-    prior.stretches.push_back(part);
+    prior.stretches.push_back(
+        {stretch.first + begin * stretch.stride, stretch.stride, end - begin, stretch.mass + begin});
     begin = next;
   }
 }
 
-std::size_t Lattice::make_prior(int cell, int element, Prior& prior) const {
-  prior.stretches.clear();
-  prior.seen.clear();
-  const int rest = grid_.cells - cell;
-  const std::vector<WidthMass>& masses = widths(cell, element, prior.made);
-  std::size_t most = 0;
-  for (const WidthMass& mass : masses) most += mass.mass.size();
-  if (evidence_.has_doors()) prior.seen.reserve(most);  // the stretches point into it
-  for (const WidthMass& mass : masses) {
-    if (mass.first > rest) continue;
-    const int count = std::min(static_cast<int>(mass.mass.size()), (rest - mass.first) / mass.stride + 1);
-    add_stretch(cell, element, {mass.first, mass.stride, count, mass.mass.data()}, prior);
+/// Multiplies every mass by the likelihood of the doors.
+void Lattice::weigh_doors(int cell, const Element& element, Prior& prior) const {
+  const ElementRoom& room = element.rooms.front();
+  const bool plain = element.rooms.size() == 1 && room.at_hallway && room.start.constant == 0 &&
+                     room.start.slope == 0 && room.width.constant == 0 && room.width.slope == 1;
+  std::size_t count = 0;
+  for (const Prior::Stretch& stretch : prior.stretches) count += static_cast<std::size_t>(stretch.count);
+  prior.seen.assign(count, 0);
+  double* seen = prior.seen.data();
+  for (Prior::Stretch& stretch : prior.stretches) {
+    for (int i = 0; i < stretch.count; ++i) {
+      if (stretch.mass[i] <= 0) continue;
+      const int width = stretch.first + i * stretch.stride;
+      seen[i] = stretch.mass[i] *
+                (plain ? evidence_.doors(room.type, cell, cell + width) : doors(cell, element, width));
+    }
+    stretch.mass = seen;
+    seen += stretch.count;
   }
-  std::size_t made = sizeof(Prior) / sizeof(double) + prior.seen.size();
+}
+
+/// Returns how many values it takes.
+std::size_t Lattice::make_prior(int cell, int element, Prior& prior) const {
+  const Element& placed = row_.elements[static_cast<std::size_t>(element)];
+  prior.stretches.clear();
+  prior.made.clear();
+  if (placed.kind == Element::Width::uniform) {
+    add_uniform(cell, element, prior);
+  } else {
+    if (placed.kind == Element::Width::share)
+      add_normal(prior.made, 1, {placed.share.at(grid_.remaining_m(cell)), placed.share_sd_m}, grid_,
+                 grid_.cells - cell);
+    const auto& masses =
+        placed.kind == Element::Width::share ? prior.made : masses_[static_cast<std::size_t>(element)];
+    for (const WidthMass& mass : masses) add_alive(cell, mass, prior);
+  }
+  if (evidence_.has_doors()) weigh_doors(cell, placed, prior);
+  std::size_t made = sizeof(Prior) / sizeof(double) +
+                     prior.stretches.size() * sizeof(Prior::Stretch) / sizeof(double) + prior.seen.size();
   for (const WidthMass& mass : prior.made) made += mass.mass.size();
   return made;
 }
@@ -307,13 +332,13 @@ const Prior& Lattice::prior(int cell, int element) const {
   if (passes_ == Passes::several && kept_.empty())
     kept_.resize((static_cast<std::size_t>(grid_.cells) + 1) * elements);
   if (passes_ == Passes::several) {
-    std::unique_ptr<Prior>& kept =
-        kept_[static_cast<std::size_t>(cell) * elements + static_cast<std::size_t>(element)];
+    const Prior*& kept = kept_[static_cast<std::size_t>(cell) * elements + static_cast<std::size_t>(element)];
     if (kept != nullptr) return *kept;
     if (kept_values_ < kMostKeptValues) {
-      kept = std::make_unique<Prior>();
-      kept_values_ += make_prior(cell, element, *kept);
-      return *kept;
+      Prior& prior = priors_.emplace_back();
+      kept_values_ += make_prior(cell, element, prior);
+      kept = &prior;
+      return prior;
     }
   }
   last_.resize(elements);

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <deque>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -61,8 +60,9 @@ struct Prior {
     const double* mass = nullptr;
   };
   std::vector<Stretch> stretches;
-  std::vector<WidthMass> made;  ///< what the stretches point to, as far as it is not the same everywhere
-  std::vector<double> seen;     ///< and with doors; of fixed capacity
+  /// What the stretches point to, where it is not the same for all cells.
+  std::vector<WidthMass> made;
+  std::vector<double> seen;  ///< with doors
 };
 
 /// Not for several threads at once: what one pass has worked out is kept for the next.
@@ -112,10 +112,6 @@ class Lattice {
                     [static_cast<std::size_t>(row_.position_class[static_cast<std::size_t>(cell)])];
   }
 
-  /// Masses of an element's widths when it is placed at a cell; they may reach beyond the end of the space,
-  /// and leave out widths that end where nothing is alive. `made` holds those that are not the same
-  /// everywhere.
-  const std::vector<WidthMass>& widths(int cell, int element, std::vector<WidthMass>& made) const;
   /// The prior of an element at a cell. Valid until the next call with another cell.
   const Prior& prior(int cell, int element) const;
   /// Evidence is considered for rooms that start at this cell up to this one, exclusive.
@@ -129,9 +125,11 @@ class Lattice {
 
  private:
   std::size_t make_prior(int cell, int element, Prior& prior) const;
-  void add_stretch(int cell, int element, Prior::Stretch stretch, Prior& prior) const;
+  void add_alive(int cell, const WidthMass& mass, Prior& prior) const;
+  void add_alive(int cell, const Prior::Stretch& stretch, Prior& prior) const;
+  void add_uniform(int cell, int element, Prior& prior) const;
+  void weigh_doors(int cell, const Element& element, Prior& prior) const;
   double doors(int cell, const Element& element, int width) const;
-  void uniform_mass(const Element& element, int cell, std::vector<WidthMass>& made) const;
   bool needs_fine_steps(int cell, int first, int last) const;
 
   const Row& row_;
@@ -139,6 +137,10 @@ class Lattice {
   const Evidence& evidence_;
   Passes passes_;
   std::vector<std::vector<WidthMass>> masses_;  // of mixtures, by element
+  struct Even {
+    std::vector<double> fine, coarse;  // the same value throughout
+  };
+  std::vector<Even> even_;  // masses of uniform widths, by element
   std::vector<int>
       fine_before_;  // [cell]: cells before it where walls may be known to better than a coarse step
   std::vector<std::pair<int, int>> fine_widths_;  // of background rooms
@@ -157,7 +159,8 @@ class Lattice {
     int cell = -1;
     Prior prior;
   };
-  mutable std::vector<std::unique_ptr<Prior>> kept_;  // [cell * elements + element]
+  mutable std::deque<Prior> priors_;
+  mutable std::vector<const Prior*> kept_;  // [cell * elements + element], into priors_
   mutable std::size_t kept_values_ = 0;
   mutable std::vector<LastPrior> last_;  // [element]; of those that are not kept
 };
