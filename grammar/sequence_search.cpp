@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace gramap {
@@ -138,8 +139,7 @@ class Search {
     std::vector<PrefixPtr> made;
     for (int look = 0; look < look_count_; ++look) {
       if (only >= 0 && look != only) continue;
-      int first = lattice_.grid().cells + 1;
-      int last = -1;
+      touched_.clear();
       for (auto from = prefix->layer.begin(); from != prefix->layer.end();) {
         const int cell = from->cell;
         const int e = from->evidence_state;
@@ -151,15 +151,14 @@ class Search {
           for (const Move& move : edges_.moves(cell, emission.element, e)) {
             double* target = &scratch_[lattice_.node(move.first_cell, emission.target, move.target_evidence)];
             for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
-            first = std::min(first, move.first_cell);
-            last = std::max(last, move.last_cell());
+            touch(move.target_evidence, emission.target, move.first_cell, move.last_cell());
           }
         });
       }
-      if (last < 0) continue;
+      if (touched_.empty()) continue;
       std::vector<LayerNode> inner;
       std::vector<LayerNode> end;
-      collect(first, last, inner, end);
+      collect(inner, end);
       if (PrefixPtr whole = make_prefix(prefix, look, std::move(end))) keep_found(std::move(whole));
       if (PrefixPtr child = make_prefix(prefix, look, std::move(inner)))
         if (!is_hopeless(*child)) made.push_back(std::move(child));
@@ -167,15 +166,38 @@ class Search {
     return made;
   }
 
-  void collect(int first, int last, std::vector<LayerNode>& inner, std::vector<LayerNode>& end) {
+  /// Takes note that `scratch_` holds something at these cells, inclusive.
+  void touch(int evidence_state, int state, int first, int last) {
+    for (Touched& known : touched_) {
+      if (known.evidence_state != evidence_state || known.state != state) continue;
+      known.first = std::min(known.first, first);
+      known.last = std::max(known.last, last);
+      return;
+    }
+    touched_.push_back({evidence_state, state, first, last});
+  }
+
+  /// What `scratch_` holds, by cell, evidence state and state; leaves it empty.
+  void collect(std::vector<LayerNode>& inner, std::vector<LayerNode>& end) {
+    std::sort(touched_.begin(), touched_.end(), [](const Touched& a, const Touched& b) {
+      return std::tie(a.evidence_state, a.state) < std::tie(b.evidence_state, b.state);
+    });
+    int first = lattice_.grid().cells;
+    int last = 0;
+    for (const Touched& touched : touched_) {
+      first = std::min(first, touched.first);
+      last = std::max(last, touched.last);
+    }
     for (int cell = first; cell <= last; ++cell) {
       const bool at_end = cell == lattice_.grid().cells;
-      for_each_node(lattice_, cell, [&](int e, int state, std::size_t node) {
+      for (const auto& [e, state, from, to] : touched_) {
+        if (cell < from || cell > to) continue;
+        const std::size_t node = lattice_.node(cell, state, e);
         double value = std::exchange(scratch_[node], 0);
         if (at_end) value *= lattice_.row().accept[static_cast<std::size_t>(state)];
-        if (value <= 0 || posteriors_[node] < kDeadPosterior) return;
+        if (value <= 0 || posteriors_[node] < kDeadPosterior || !lattice_.is_alive(cell, e)) continue;
         (at_end ? end : inner).push_back({cell, state, e, node, value});
-      });
+      }
     }
   }
 
@@ -241,6 +263,10 @@ class Search {
   Edges edges_;
   Departures departures_;
   std::vector<double> scratch_;  // [node]; zero but while children are made
+  struct Touched {
+    int evidence_state, state, first, last;
+  };
+  std::vector<Touched> touched_;  // of scratch_
   std::vector<PrefixPtr> found_;
 };
 
