@@ -15,12 +15,21 @@ double log_gauss(double x, double mean, double sd) {
   return -0.5 * u * u - std::log(sd * std::sqrt(2 * std::numbers::pi));
 }
 
-/// Scans that no room of the rules explains, by index, in order.
-std::vector<int> unexplained(const SpaceProblem& problem, const SpaceFit& fit) {
+int doors_of(const SpaceProblem& problem, const PlacedRoom& room) {
+  return static_cast<int>(
+      std::count_if(problem.doors.begin(), problem.doors.end(), [&](const DoorEvidence& door) {
+        return room.start_m < door.centre_m && door.centre_m < room.start_m + room.width_m;
+      }));
+}
+
+/// Scans that may be of two rooms, by index, in order: no room of the rules explains them, or the hallway
+/// shows two doors to the room that does.
+std::vector<int> doubtful(const SpaceProblem& problem, const SpaceFit& fit) {
   std::vector<int> found;
   for (const SetAside& aside : fit.set_aside) found.push_back(aside.evidence);
   for (const PlacedRoom& room : fit.best.rooms)
-    if (room.rule == "background") found.insert(found.end(), room.evidence.begin(), room.evidence.end());
+    if (room.rule == "background" || doors_of(problem, room) >= 2)
+      found.insert(found.end(), room.evidence.begin(), room.evidence.end());
   std::erase_if(found, [&](int scan) {
     const RoomEvidence& e = problem.rooms[static_cast<std::size_t>(scan)];
     return !e.centre_m || e.other_width_m;
@@ -71,7 +80,7 @@ double evidence_score(const SpaceFit& fit) {
 
 SpaceFit with_missed_walls(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options,
                            SpaceFit fit) {
-  for (const int scan : unexplained(problem, fit)) {
+  for (const int scan : doubtful(problem, fit)) {
     const RoomEvidence& read = problem.rooms[static_cast<std::size_t>(scan)];
     SpaceProblem without = problem;
     without.rooms.erase(without.rooms.begin() + scan);
