@@ -5,8 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "geometry/say.h"
-
 namespace gramap {
 namespace {
 
@@ -39,37 +37,22 @@ std::vector<int> doubtful(const SpaceProblem& problem, const SpaceFit& fit) {
   return found;
 }
 
-struct Pair {
-  std::size_t first = 0;  ///< index of the first room
-  double log_density = 0;
-};
-
-/// The two neighbours that explain the scan best when they are read as one.
-std::optional<Pair> best_pair(const Layout& layout, const RoomEvidence& scan) {
-  std::optional<Pair> best;
-  for (std::size_t i = 0; i + 1 < layout.rooms.size(); ++i) {
-    const PlacedRoom &a = layout.rooms[i], &b = layout.rooms[i + 1];
-    if (a.depth_m >= 0 || b.depth_m >= 0) continue;  // one behind the other
-    const double end = b.start_m + b.width_m;
-    const double sigma = std::hypot(a.start_sigma_m, b.end_sigma_m);
-    const double density =
-        log_gauss(scan.width_m, end - a.start_m, std::hypot(scan.width_sigma_m, sigma)) +
-        log_gauss(*scan.centre_m, 0.5 * (a.start_m + end), std::hypot(scan.centre_sigma_m, 0.5 * sigma));
-    if (!best || density > best->log_density) best = Pair{i, density};
-  }
-  return best;
-}
-
-/// Evidence is counted as if the one at `taken_out` were there again.
-void put_back(SpaceFit& fit, int taken_out) {
-  const auto shift = [&](int& evidence) { evidence += evidence >= taken_out ? 1 : 0; };
-  for (PlacedRoom& room : fit.best.rooms)
-    for (int& evidence : room.evidence) shift(evidence);
-  for (Layout& layout : fit.alternatives)
-    for (PlacedRoom& room : layout.rooms)
-      for (int& evidence : room.evidence) shift(evidence);
-  for (SetAside& aside : fit.set_aside) shift(aside.evidence);
-  for (Reinterpreted& note : fit.reinterpreted) shift(note.evidence);
+/// What is to be added to the score of a layout whose two neighbours explain the scan by their outer walls,
+/// each by itself, to hold them against its width and centre instead; none when no two neighbours do.
+std::optional<double> width_for_walls(const Layout& layout, const RoomEvidence& scan, int index) {
+  const auto explains = [&](const PlacedRoom& room) {
+    return std::find(room.evidence.begin(), room.evidence.end(), index) != room.evidence.end();
+  };
+  const auto a = std::find_if(layout.rooms.begin(), layout.rooms.end(), explains);
+  if (a == layout.rooms.end() || a + 1 == layout.rooms.end() || !explains(*(a + 1))) return std::nullopt;
+  const PlacedRoom& b = *(a + 1);
+  const double start = a->start_m, end = b.start_m + b.width_m;
+  const double sigma = std::hypot(a->start_sigma_m, b.end_sigma_m);
+  const double wall_sigma = std::hypot(scan.centre_sigma_m, 0.5 * scan.width_sigma_m);
+  return log_gauss(scan.width_m, end - start, std::hypot(scan.width_sigma_m, sigma)) +
+         log_gauss(*scan.centre_m, 0.5 * (start + end), std::hypot(scan.centre_sigma_m, 0.5 * sigma)) -
+         log_gauss(*scan.centre_m - 0.5 * scan.width_m, start, wall_sigma) -
+         log_gauss(*scan.centre_m + 0.5 * scan.width_m, end, wall_sigma);
 }
 
 }  // namespace
@@ -81,22 +64,13 @@ double evidence_score(const SpaceFit& fit) {
 SpaceFit with_missed_walls(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options,
                            SpaceFit fit) {
   for (const int scan : doubtful(problem, fit)) {
-    const RoomEvidence& read = problem.rooms[static_cast<std::size_t>(scan)];
-    SpaceProblem without = problem;
-    without.rooms.erase(without.rooms.begin() + scan);
-    SpaceFit two = fit_space(rules, without, options);
-    const std::optional<Pair> pair = best_pair(two.best, read);
-    if (!pair) continue;
-    const double share = (1 - options.outlier_share) * options.missed_wall_share;
-    if (two.best.score + std::log(share) + pair->log_density <= evidence_score(fit)) continue;
-    put_back(two, scan);
-    for (const std::size_t room : {pair->first, pair->first + 1}) {
-      std::vector<int>& evidence = two.best.rooms[room].evidence;
-      evidence.insert(std::lower_bound(evidence.begin(), evidence.end(), scan), scan);
-    }
-    two.best.score += std::log(share) + pair->log_density;
-    two.reinterpreted.push_back(
-        {scan, "read as one room of " + said_metres(read.width_m) + ", but it is two: a wall was missed"});
+    SpaceProblem supposed = problem;
+    RoomEvidence& read = supposed.rooms[static_cast<std::size_t>(scan)];
+    read.of_two_rooms = true;
+    SpaceFit two = fit_space(rules, supposed, options);
+    const std::optional<double> gain = width_for_walls(two.best, read, scan);
+    if (!gain || two.best.score + *gain <= evidence_score(fit)) continue;
+    two.best.score += *gain;
     return two;  // one missed wall a space; a second scan like it stays as it was read
   }
   return fit;

@@ -107,6 +107,7 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
     e.original = static_cast<int>(i);
     e.width_m = given.width_m;
     e.width_sd_m = std::sqrt(given.width_sigma_m * given.width_sigma_m + h * h / 6);
+    e.of_two_rooms = given.of_two_rooms;
     e.has_other = given.other_width_m.has_value();
     e.other_m = given.other_width_m.value_or(0);
     e.other_sd_m = std::sqrt(given.other_sigma_m * given.other_sigma_m + h * h / 6);
@@ -187,6 +188,7 @@ double Evidence::reading(const PreparedEvidence& e, Reading how, const Extent& r
     const double position = e.has_centre ? gauss(e.centre_m, room.centre_m(), e.centre_sd_m) : 1;
     return position > 0 ? known * whole_share * position * gauss(read_m, width, sd_m) : 0;
   };
+  if (e.of_two_rooms && how != Reading::aside && how != Reading::opens && how != Reading::closes) return 0;
   switch (how) {
     case Reading::aside:
       return e.aside;
@@ -220,6 +222,7 @@ bool Evidence::belongs(const PreparedEvidence& e, int cell, int first, int strid
   const double whole = known * (1 - options_.cut_off_share - options_.missed_wall_share);
   bool any = false;
   std::fill(weights, weights + count, 0);
+  if (e.of_two_rooms) return any;
   // Each reading is possible for a short stretch of widths only.
   const auto add = [&](int least, int most, auto&& density) {
     const int from = std::max(0, (least - first + stride - 1) / stride);

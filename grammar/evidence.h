@@ -58,6 +58,7 @@ struct PreparedEvidence {
   int original = 0;  ///< index into SpaceProblem::rooms
   double width_m = 0;
   double width_sd_m = 0;
+  bool of_two_rooms = false;  ///< the only reading of it is a missed wall
   bool has_other = false;
   double other_m = 0;
   double other_sd_m = 0;

@@ -24,6 +24,7 @@ struct RoomEvidence {
   double centre_sigma_m = 0;
   std::string type;  ///< type evidence: a room type's name, or empty
   double type_confidence = 0;
+  bool of_two_rooms = false;  ///< a wall was missed for sure: no room by itself explains it
 };
 
 /// A door seen in the hallway's wall, from the hallway.

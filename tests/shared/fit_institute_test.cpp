@@ -163,7 +163,7 @@ TEST_CASE("institute, first floor: each two neighbours in turn read as one room"
       right += is_right(institute, problems, space, "it is two: a wall was missed") ? 1 : 0;
     }
   CHECK(pairs == 16);
-  CHECK(right >= 12);
+  CHECK(right >= 15);
 }
 
 TEST_CASE("institute, first floor: each room's scan in turn is really of the room two doors on") {
