@@ -128,6 +128,43 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const std::ve
     }
 }
 
+/// Whether the scanners look through under most of it: a beam along the ceiling. Lintels are looked under,
+/// too, but only where there are doors.
+bool is_beam(const WallLine& line, const RegisteredCloud& cloud, const Storey& storey,
+             const WallOptions& options) {
+  constexpr double kMargin_m = 0.3;  // behind the line; and off the floor, where feet of furniture hide walls
+  constexpr double kShare = 0.7;     // of the columns
+  constexpr std::size_t kMostSeen = 3;  // times as many points behind as on a column
+  const double low = storey.floor_z_m + kMargin_m, high = storey.ceiling_z_m - options.top_band_m;
+  const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
+  std::vector<std::size_t> on(line.wall.size(), 0), behind(line.wall.size(), 0);
+  const Vec2 direction = line.direction();
+  const auto count = [&](const Vec3& p, std::vector<std::size_t>& counts) {
+    if (p.z() < low || p.z() > high) return;
+    const double column = (direction.dot(p.head<2>()) - line.start_m) / line.column_m;
+    if (column >= 0 && column < static_cast<double>(counts.size()))
+      ++counts[static_cast<std::size_t>(column)];
+  };
+  for (const RegisteredCloud::Part& part : cloud.parts) {
+    const double from = line.distance(part.scanner_m, storey);
+    for (std::size_t i = part.begin; i < part.end; i += step) {
+      const Vec3 p = cloud.points_m[i].cast<double>();
+      const double to = line.distance(p, storey);
+      if (std::abs(to) <= line.band_m)
+        count(p, on);
+      else if ((from > 0) != (to > 0) && std::abs(to) > kMargin_m)
+        count(part.scanner_m + from / (from - to) * (p - part.scanner_m), behind);
+    }
+  }
+  std::size_t walls = 0, open = 0;
+  for (std::size_t c = 0; c < line.wall.size(); ++c) {
+    if (!line.wall[c]) continue;
+    ++walls;
+    open += behind[c] > kMostSeen * on[c];
+  }
+  return static_cast<double>(open) > kShare * static_cast<double>(walls);
+}
+
 }  // namespace
 
 double WallLine::wall_share(const Vec2& a, const Vec2& b) const {
@@ -146,7 +183,8 @@ std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const Re
   for (WallLine& line : lines) gather_evidence(line, cloud, up, storey, options);
   std::erase_if(lines, [&](const WallLine& line) {
     const auto columns = std::count(line.wall.begin(), line.wall.end(), 1);
-    return static_cast<double>(columns) * line.column_m < options.min_length_m;
+    return static_cast<double>(columns) * line.column_m < options.min_length_m ||
+           is_beam(line, cloud, storey, options);
   });
   std::stable_sort(lines.begin(), lines.end(),
                    [](const WallLine& a, const WallLine& b) { return a.support > b.support; });

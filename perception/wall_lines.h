@@ -56,7 +56,8 @@ struct WallOptions {
   double min_length_m = 0.3;       ///< shorter pieces are no walls
 };
 
-/// Lines of the planes that reach the ceiling, in the order of support.
+/// Lines of the planes that reach the ceiling, in the order of support; beams, which the scanners look
+/// through under, are none.
 std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const RegisteredCloud& cloud,
                                  const Storey& storey, const WallOptions& options);
 
