@@ -128,41 +128,61 @@ void gather_evidence(WallLine& line, const RegisteredCloud& cloud, const std::ve
     }
 }
 
-/// Whether the scanners look through under most of it: a beam along the ceiling. Lintels are looked under,
-/// too, but only where there are doors.
-bool is_beam(const WallLine& line, const RegisteredCloud& cloud, const Storey& storey,
-             const WallOptions& options) {
+/// Takes away what the scanners look through: single columns at all heights, and all of a line most of which
+/// blocks the view under the ceiling only, a beam. Lintels are like that, too, but only where there are
+/// doors.
+void clear_seen_through(WallLine& line, const RegisteredCloud& cloud, const Storey& storey,
+                        const WallOptions& options) {
   constexpr double kMargin_m = 0.3;  // behind the line; and off the floor, where feet of furniture hide walls
   constexpr double kShare = 0.7;     // of the columns
   constexpr std::size_t kMostSeen = 3;  // times as many points behind as on a column
-  const double low = storey.floor_z_m + kMargin_m, high = storey.ceiling_z_m - options.top_band_m;
-  const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
-  std::vector<std::size_t> on(line.wall.size(), 0), behind(line.wall.size(), 0);
-  const Vec2 direction = line.direction();
-  const auto count = [&](const Vec3& p, std::vector<std::size_t>& counts) {
-    if (p.z() < low || p.z() > high) return;
-    const double column = (direction.dot(p.head<2>()) - line.start_m) / line.column_m;
-    if (column >= 0 && column < static_cast<double>(counts.size()))
-      ++counts[static_cast<std::size_t>(column)];
+  const double low = storey.floor_z_m + kMargin_m, middle = storey.ceiling_z_m - options.top_band_m,
+               high = storey.ceiling_z_m - 0.04;
+  struct Column {
+    std::size_t on = 0, behind = 0;
   };
+  std::vector<Column> top(line.wall.size()), beneath(line.wall.size());
+  const auto column_of = [&](const Vec3& p) -> Column* {
+    const double column = (line.direction().dot(p.head<2>()) - line.start_m) / line.column_m;
+    if (column < 0 || column >= static_cast<double>(top.size()) || p.z() < low || p.z() > high)
+      return nullptr;
+    return &(p.z() > middle ? top : beneath)[static_cast<std::size_t>(column)];
+  };
+  const std::size_t step = std::max<std::size_t>(1, cloud.points_m.size() / kEvidencePoints);
   for (const RegisteredCloud::Part& part : cloud.parts) {
     const double from = line.distance(part.scanner_m, storey);
     for (std::size_t i = part.begin; i < part.end; i += step) {
       const Vec3 p = cloud.points_m[i].cast<double>();
       const double to = line.distance(p, storey);
-      if (std::abs(to) <= line.band_m)
-        count(p, on);
-      else if ((from > 0) != (to > 0) && std::abs(to) > kMargin_m)
-        count(part.scanner_m + from / (from - to) * (p - part.scanner_m), behind);
+      if (std::abs(to) <= line.band_m) {
+        if (Column* column = column_of(p)) ++column->on;
+      } else if ((from > 0) != (to > 0) && std::abs(to) > kMargin_m) {
+        if (Column* column = column_of(part.scanner_m + from / (from - to) * (p - part.scanner_m)))
+          ++column->behind;
+      }
     }
   }
-  std::size_t walls = 0, open = 0;
+  const auto near = [&](const std::vector<Column>& columns, std::size_t c) {
+    Column sum;
+    for (std::size_t other = c < 2 ? 0 : c - 2; other < std::min(columns.size(), c + 3); ++other) {
+      sum.on += columns[other].on;
+      sum.behind += columns[other].behind;
+    }
+    return sum;
+  };
+  std::size_t walls = 0, beams = 0;
   for (std::size_t c = 0; c < line.wall.size(); ++c) {
     if (!line.wall[c]) continue;
+    const Column above = near(top, c), below = near(beneath, c);
+    const bool open = below.behind > kMostSeen * below.on;
+    if (open && above.behind > kMostSeen * above.on) {
+      line.wall[c] = 0;
+      continue;
+    }
     ++walls;
-    open += behind[c] > kMostSeen * on[c];
+    beams += open && above.on >= above.behind;
   }
-  return static_cast<double>(open) > kShare * static_cast<double>(walls);
+  if (static_cast<double>(beams) > kShare * static_cast<double>(walls)) line.wall.clear();
 }
 
 }  // namespace
@@ -180,11 +200,13 @@ std::vector<WallLine> wall_lines(const std::vector<PlanePatch>& planes, const Re
                                  const Storey& storey, const WallOptions& options) {
   std::vector<WallLine> lines = merged(planes, storey, options);
   const std::vector<double> up = views_up(cloud);
-  for (WallLine& line : lines) gather_evidence(line, cloud, up, storey, options);
+  for (WallLine& line : lines) {
+    gather_evidence(line, cloud, up, storey, options);
+    clear_seen_through(line, cloud, storey, options);
+  }
   std::erase_if(lines, [&](const WallLine& line) {
     const auto columns = std::count(line.wall.begin(), line.wall.end(), 1);
-    return static_cast<double>(columns) * line.column_m < options.min_length_m ||
-           is_beam(line, cloud, storey, options);
+    return static_cast<double>(columns) * line.column_m < options.min_length_m;
   });
   std::stable_sort(lines.begin(), lines.end(),
                    [](const WallLine& a, const WallLine& b) { return a.support > b.support; });
