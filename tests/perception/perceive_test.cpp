@@ -126,3 +126,15 @@ TEST_CASE("scans that hold no room are refused with what was found") {
   points.resize(3);
   CHECK(refusal() != "accepted");
 }
+
+TEST_CASE("a beam under the ceiling, which the scanner looks through beneath, is no wall") {
+  const Polygon ring = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
+  const Vec3 scanner(2, 2, 1.5);
+  RoomScans scans = test::room_scan({.ring = ring, .points = 60000}, scanner);
+  Random random(1);
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 on_face(5 + 0.01 * random.normal(), 4 * random.uniform(), 2.3 + 0.4 * random.uniform());
+    scans.scans[0].points_m.push_back((on_face - scanner).cast<float>());
+  }
+  CHECK(corner_error_m(ring, perceive_room(scans).outline) < 0.02);
+}
