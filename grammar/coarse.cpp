@@ -11,7 +11,7 @@ namespace {
 constexpr double kCoarseness = 5;        // coarse step / fine step
 constexpr double kFinestCoarse_m = 0.1;  // no wider coarse steps than this: narrow rooms would vanish in them
 constexpr double kNegligible = 1e-7;
-constexpr int kMargin = 2;  // coarse cells kept around those that matter
+constexpr int kMargin = 1;  // coarse cells kept around those that matter: what the coarse grid rounds off
 
 }  // namespace
 
