@@ -329,9 +329,8 @@ std::size_t Lattice::make_prior(int cell, int element, Prior& prior) const {
 
 const Prior& Lattice::prior(int cell, int element) const {
   const std::size_t elements = row_.elements.size();
-  if (passes_ == Passes::several && kept_.empty())
-    kept_.resize((static_cast<std::size_t>(grid_.cells) + 1) * elements);
   if (passes_ == Passes::several) {
+    if (kept_.empty()) kept_.resize((static_cast<std::size_t>(grid_.cells) + 1) * elements);
     const Prior*& kept = kept_[static_cast<std::size_t>(cell) * elements + static_cast<std::size_t>(element)];
     if (kept != nullptr) return *kept;
     if (kept_values_ < kMostKeptValues) {
