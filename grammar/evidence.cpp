@@ -35,6 +35,10 @@ double across_density(double value_m, double sd_m, double depth_m, double range_
   return kDepthShare * gauss(value_m, depth_m, std::hypot(sd_m, kDepthSd_m)) + (1 - kDepthShare) / range_m;
 }
 
+double place_sd_m(const DoorHabit::Place& place, const DoorEvidence& door) {
+  return std::hypot(std::max(place.offset.sd_m, kLeastPlaceSd_m), door.sigma_m);
+}
+
 int to_cell(double position_m, const Grid& grid) {
   return static_cast<int>(std::lround(std::clamp(position_m / grid.step_m, -1e9, 1e9)));
 }
@@ -156,7 +160,19 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
   std::sort(doors_.begin(), doors_.end(),
             [](const DoorEvidence& a, const DoorEvidence& b) { return a.centre_m < b.centre_m; });
   for (DoorEvidence& door : doors_) door.sigma_m = std::sqrt(door.sigma_m * door.sigma_m + h * h / 12);
-  for (const DoorEvidence& door : doors_) door_tables_.push_back(door_tables(door));
+  for (std::size_t type = 0; type <= types; ++type) {
+    std::vector<DoorTables>& tables = door_tables_.emplace_back();
+    for (const DoorEvidence& door : doors_)
+      tables.push_back(door_tables(door, type < types ? &rules.rooms[type] : nullptr));
+  }
+  double usual_width_m = 0;
+  for (const DoorEvidence& door : doors_)
+    usual_width_m += door.width_m / static_cast<double>(doors_.size());
+  for (int cells = 0; cells <= grid.cells; ++cells)
+    door_anywhere_.push_back(1 / std::max(grid.width_m(cells) - usual_width_m, kSmallestSlack_m));
+  all_false_.push_back(1);
+  for (std::size_t i = 0; i < doors_.size(); ++i)
+    all_false_.push_back(all_false_.back() * options.false_door_share / (grid.cells * h));
   // Stretches may overlap; each counts.
   std::vector<double> starts, ends;
   for (const Stretch& stretch : problem.doors_visible) {
@@ -264,101 +280,106 @@ WindowTable Evidence::tabulate(double least_m, double most_m, double before, dou
                    [&](int cell) { return f(grid_.position_m(cell)); });
 }
 
-Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door) const {
+/// `type` may be null: a room of which nothing is known.
+Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door, const RoomType* type) const {
   const double near_m = door.centre_m - 0.5 * door.width_m;
   const double far_m = door.centre_m + 0.5 * door.width_m;
-  const double reach_m = kGateSigmas * door.sigma_m + kDoorFrame_m;
+  const DoorHabit* habit = type != nullptr && type->door ? &*type->door : nullptr;
   DoorTables tables;
-  const auto add_fits = [&](double frame_m) {
-    tables.starts_before.push_back(tabulate(near_m - reach_m, near_m + reach_m, 1, 0, [&](double start_m) {
-      return cumulative((near_m - frame_m - start_m) / door.sigma_m);
-    }));
-    // The room ends a wall before the next one starts.
-    tables.ends_after.push_back(tabulate(
-        far_m - reach_m + grid_.wall_m, far_m + reach_m + grid_.wall_m, 0, 1,
-        [&](double next_m) { return cumulative((next_m - grid_.wall_m - far_m - frame_m) / door.sigma_m); }));
-  };
-  for (const RoomType& type : rules_.rooms) {
-    tables.width.push_back(1);
-    if (type.door && door.width_sigma_m > 0)
-      tables.width.back() = kOtherWidthShare + (1 - kOtherWidthShare) * kDoorWidths_m *
-                                                   gauss(door.width_m, type.door->width_m,
-                                                         std::hypot(door.width_sigma_m, kDoorWidthSd_m));
-    WindowTable& from_start = tables.from_start.emplace_back();
-    WindowTable& from_end = tables.from_end.emplace_back();
-    double frame_m = kDoorFrame_m;  // unless the rules say that doors are nearer to the corner
-    if (type.door)
-      for (const DoorHabit::Place& place : type.door->places)
-        frame_m = std::min(frame_m, place.offset.mean_m);
-    add_fits(frame_m);
-    tables.has_habit.push_back(type.door && !type.door->places.empty());
-    if (!tables.has_habit.back()) continue;
-    double weights = 0;
-    double reach = 0;
-    double farthest = 0;
-    for (const DoorHabit::Place& place : type.door->places) {
-      weights += place.weight;
-      reach = std::max(reach,
-                       kGateSigmas * std::hypot(std::max(place.offset.sd_m, kLeastPlaceSd_m), door.sigma_m));
-      farthest = std::max(farthest, std::abs(place.offset.mean_m));
-    }
-    const auto density = [&](bool end, double offset_m) {
-      double sum = 0;
-      for (const DoorHabit::Place& place : type.door->places)
-        if (place.from_end == end)
-          sum += place.weight / weights *
-                 gauss(offset_m, place.offset.mean_m,
-                       std::hypot(std::max(place.offset.sd_m, kLeastPlaceSd_m), door.sigma_m));
-      return sum;
-    };
-    from_start = tabulate(near_m - farthest - reach, near_m + farthest + reach, 0, 0,
-                          [&](double start_m) { return density(false, near_m - start_m); });
-    from_end = tabulate(far_m + grid_.wall_m - farthest - reach, far_m + grid_.wall_m + farthest + reach, 0,
-                        0, [&](double next_m) { return density(true, next_m - grid_.wall_m - far_m); });
+  if (habit != nullptr && door.width_sigma_m > 0)
+    tables.width =
+        kOtherWidthShare + (1 - kOtherWidthShare) * kDoorWidths_m *
+                               gauss(door.width_m, habit->width_m, std::hypot(door.width_sigma_m, kDoorWidthSd_m));
+
+  double frame_m = kDoorFrame_m;  // unless the rules say that doors are nearer to the corner
+  if (habit != nullptr)
+    for (const DoorHabit::Place& place : habit->places) frame_m = std::min(frame_m, place.offset.mean_m);
+  const double frame_reach_m = kGateSigmas * door.sigma_m + kDoorFrame_m;
+  tables.starts_before =
+      tabulate(near_m - frame_reach_m, near_m + frame_reach_m, 1, 0,
+               [&](double start_m) { return cumulative((near_m - frame_m - start_m) / door.sigma_m); });
+  // The room ends a wall before the next one starts.
+  const double next_m = far_m + grid_.wall_m;
+  tables.ends_after = tabulate(next_m - frame_reach_m, next_m + frame_reach_m, 0, 1, [&](double start_m) {
+    return cumulative((start_m - next_m - frame_m) / door.sigma_m);
+  });
+  if (habit == nullptr || habit->places.empty()) return tables;
+
+  double weights = 0;
+  double reach_m = 0;
+  for (const DoorHabit::Place& place : habit->places) {
+    weights += place.weight;
+    reach_m = std::max(reach_m, std::abs(place.offset.mean_m) + kGateSigmas * place_sd_m(place, door));
   }
-  add_fits(kDoorFrame_m);
+  const auto density = [&](bool end, double offset_m) {
+    double sum = 0;
+    for (const DoorHabit::Place& place : habit->places)
+      if (place.from_end == end)
+        sum += place.weight / weights * gauss(offset_m, place.offset.mean_m, place_sd_m(place, door));
+    return sum;
+  };
+  tables.from_start = tabulate(near_m - reach_m, near_m + reach_m, 0, 0,
+                               [&](double start_m) { return density(false, near_m - start_m); });
+  tables.from_end = tabulate(next_m - reach_m, next_m + reach_m, 0, 0,
+                             [&](double start_m) { return density(true, start_m - next_m); });
   return tables;
 }
 
-/// Density of the door's place in a room of the type that takes [first_cell, last_cell), times what its width
-/// says. Of a room's second door only the width is known beforehand.
-Evidence::DoorPlace Evidence::door_place(std::size_t door, int type, int first_cell, int last_cell) const {
-  const DoorTables& tables = door_tables_[door];
-  const std::size_t t = type < 0 ? rules_.rooms.size() : static_cast<std::size_t>(type);
-  const double fits = tables.starts_before[t].at(first_cell) * tables.ends_after[t].at(last_cell);
-  if (fits <= 0) return {};
-  const double width_m = grid_.width_m(last_cell - first_cell);
-  const double anywhere = 1 / std::max(width_m - doors_[door].width_m, kSmallestSlack_m);
-  if (type < 0) return {fits * anywhere, fits * anywhere};
-  const double fitting = fits * tables.width[t];
-  if (!tables.has_habit[t]) return {fitting * anywhere, fitting * anywhere};
-  const double habit = tables.from_start[t].at(first_cell) + tables.from_end[t].at(last_cell);
-  return {fitting * (kElsewhereShare * anywhere + (1 - kElsewhereShare) * habit), fitting * anywhere};
+double Evidence::doors(int type, int first_cell, int last_cell) const {
+  double likelihood = 0;
+  doors(type, first_cell, last_cell - first_cell, 1, 1, &likelihood);
+  return likelihood;
 }
 
-double Evidence::doors(int type, int first_cell, int last_cell) const {
-  const double gross_m = (last_cell - first_cell) * grid_.step_m;
-  const auto first = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(first_cell)]);
-  const auto last = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(last_cell)]);
-  const double seen_m =
-      visible_[static_cast<std::size_t>(last_cell)] - visible_[static_cast<std::size_t>(first_cell)];
-  const double seen = std::clamp(seen_m / gross_m, 0.0, 1.0);
-  const double none = options_.doorless_share + (1 - options_.doorless_share) * (1 - seen);
-  if (first == last) return none;
-
+/// Of a room's doors one is where its type has it, or anywhere in the room; of its other doors only the width
+/// is known beforehand. What was taken for a door may be none, or all but one, or all may be real.
+void Evidence::doors(int type, int cell, int first, int stride, int count, double* likelihoods) const {
+  const std::size_t t = type < 0 ? rules_.rooms.size() : static_cast<std::size_t>(type);
+  const bool has_habit = type >= 0 && rules_.rooms[t].door && !rules_.rooms[t].door->places.empty();
+  const double elsewhere = has_habit ? kElsewhereShare : 1;
   const double one = 1 - options_.doorless_share - options_.second_door_share;
-  const double lone_false = options_.false_door_share / (grid_.cells * grid_.step_m);
-  double all_false = 1;
-  double one_real = 0;
-  double all_real = options_.second_door_share;
-  for (std::size_t i = first; i < last; ++i) {
-    const DoorPlace place = door_place(i, type, first_cell, last_cell);
-    one_real = one_real * lone_false + all_false * place.first;
-    all_false *= lone_false;
-    all_real *= place.other;
-    if (i >= first + 2) all_real *= kThirdDoorShare;
+  const std::vector<DoorTables>& tables = door_tables_[t];
+  const auto first_door = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(cell)]);
+  const double seen_before_m = visible_[static_cast<std::size_t>(cell)];
+
+  struct Sums {
+    double anywhere = 0;  // of the doors' weights as far as they may be anywhere,
+    double habit = 0;     // of those where the type has its door,
+    double all = 1;       // and the product of the former
+    void add(const DoorTables& door, int start, int end) {
+      const double fits = door.starts_before.at(start) * door.ends_after.at(end) * door.width;
+      anywhere += fits;
+      habit += fits * (door.from_start.at(start) + door.from_end.at(end));
+      all *= fits;
+    }
+  };
+  Sums settled;  // of doors that lie before the room's end, whatever the width from here on
+  std::size_t next = first_door;
+  for (int i = 0; i < count; ++i) {
+    const int width = first + i * stride;
+    const int end = cell + width;
+    const auto last_door = static_cast<std::size_t>(doors_before_[static_cast<std::size_t>(end)]);
+    const double seen_m = visible_[static_cast<std::size_t>(end)] - seen_before_m;
+    const double seen = std::clamp(seen_m / (width * grid_.step_m), 0.0, 1.0);
+    const double none = 1 - (1 - options_.doorless_share) * seen;
+    if (last_door <= first_door) {
+      likelihoods[i] = none;
+      continue;
+    }
+    for (; next < last_door && tables[next].settled() < end; ++next) settled.add(tables[next], cell, end);
+    Sums sums = settled;
+    for (std::size_t door = next; door < last_door; ++door) sums.add(tables[door], cell, end);
+
+    const std::size_t doors = last_door - first_door;
+    const double anywhere = door_anywhere_[static_cast<std::size_t>(width)];
+    likelihoods[i] = none * all_false_[doors] +
+                     one * all_false_[doors - 1] *
+                         (elsewhere * anywhere * sums.anywhere + (1 - elsewhere) * sums.habit);
+    if (doors < 2 || sums.all <= 0) continue;
+    double all_real = options_.second_door_share * sums.all * anywhere * anywhere;
+    for (std::size_t door = 2; door < doors; ++door) all_real *= kThirdDoorShare * anywhere;
+    likelihoods[i] += all_real;
   }
-  return none * all_false + one * one_real + (last - first >= 2 ? all_real : 0);
 }
 
 }  // namespace gramap

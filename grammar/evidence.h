@@ -14,6 +14,7 @@
 // zero, which is what keeps the fit's cost linear.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "grammar/grid.h"
@@ -105,32 +106,26 @@ class Evidence {
   /// Likelihood of the doors seen in the hallway wall between two cells' edges (the room takes [first,
   /// last)), for a room of this type there.
   double doors(int type, int first_cell, int last_cell) const;
+  /// The same for a room that starts at `cell` and takes first, first + stride, … cells, `count` of them.
+  void doors(int type, int cell, int first, int stride, int count, double* likelihoods) const;
   bool has_doors() const { return !visible_.empty(); }
 
  private:
-  /// One door's terms, those of the room's start (by its first cell) and those of its end (by the next room's
-  /// first cell).
+  /// What a door says of a room of one type: terms of the room's start (by its first cell) and of its end (by
+  /// the next room's first cell).
   struct DoorTables {
-    // By type (last: any): probability that the door lies wholly behind the room's start, before its end.
-    std::vector<WindowTable> starts_before;
-    std::vector<WindowTable> ends_after;
-    std::vector<WindowTable>
-        from_start;  // by type: density of the place, of the places reckoned from the start
-    std::vector<WindowTable> from_end;
-    std::vector<bool> has_habit;  // by type: whether it says where its first door is
-    std::vector<double> width;    // by type: how much more likely a door of its width is than any other
-  };
-
-  /// Densities of a door's place in a room.
-  struct DoorPlace {
-    double first = 0;  ///< when it is the room's first door
-    double other = 0;  ///< when it is another one
+    WindowTable starts_before;  ///< probability that the door lies wholly behind the room's start,
+    WindowTable ends_after;     ///< and before its end
+    WindowTable from_start;     ///< density of the place, of the places reckoned from the start
+    WindowTable from_end;
+    double width = 1;  ///< how much more likely a door of its width is than any other
+    /// A room that ends behind this cell ends wholly behind the door, whatever its end.
+    int settled() const { return std::max(ends_after.last(), from_end.last()); }
   };
 
   template <class Function>
   WindowTable tabulate(double least_m, double most_m, double before, double after, Function f) const;
-  DoorTables door_tables(const DoorEvidence& door) const;
-  DoorPlace door_place(std::size_t door, int type, int first_cell, int last_cell) const;
+  DoorTables door_tables(const DoorEvidence& door, const RoomType* type) const;
 
   const RuleSet& rules_;
   FitOptions options_;
@@ -139,8 +134,10 @@ class Evidence {
   double width_range_m_ = 0;
   std::vector<PreparedEvidence> rooms_;
   std::vector<DoorEvidence> doors_;
-  std::vector<DoorTables> door_tables_;
-  std::vector<int> doors_before_;  // [cell]: doors whose centre lies before the cell's edge
+  std::vector<std::vector<DoorTables>> door_tables_;  // [type (last: any)][door]
+  std::vector<double> door_anywhere_;  // [cells that a room takes]: density of a door that may be anywhere
+  std::vector<double> all_false_;      // [count]: density of so many doors seen where there are none
+  std::vector<int> doors_before_;      // [cell]: doors whose centre lies before the cell's edge
   std::vector<double> visible_;  // [cell]: metres of visible hallway wall before the cell's edge; empty: none
 };
 

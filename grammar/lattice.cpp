@@ -294,12 +294,12 @@ void Lattice::weigh_doors(int cell, const Element& element, Prior& prior) const 
   prior.seen.assign(count, 0);
   double* seen = prior.seen.data();
   for (Prior::Stretch& stretch : prior.stretches) {
-    for (int i = 0; i < stretch.count; ++i) {
-      if (stretch.mass[i] <= 0) continue;
-      const int width = stretch.first + i * stretch.stride;
-      seen[i] = stretch.mass[i] *
-                (plain ? evidence_.doors(room.type, cell, cell + width) : doors(cell, element, width));
-    }
+    if (plain)
+      evidence_.doors(room.type, cell, stretch.first, stretch.stride, stretch.count, seen);
+    else
+      for (int i = 0; i < stretch.count; ++i)
+        seen[i] = doors(cell, element, stretch.first + i * stretch.stride);
+    for (int i = 0; i < stretch.count; ++i) seen[i] *= stretch.mass[i];
     stretch.mass = seen;
     seen += stretch.count;
   }
