@@ -166,8 +166,7 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
       tables.push_back(door_tables(door, type < types ? &rules.rooms[type] : nullptr));
   }
   double usual_width_m = 0;
-  for (const DoorEvidence& door : doors_)
-    usual_width_m += door.width_m / static_cast<double>(doors_.size());
+  for (const DoorEvidence& door : doors_) usual_width_m += door.width_m / static_cast<double>(doors_.size());
   for (int cells = 0; cells <= grid.cells; ++cells)
     door_anywhere_.push_back(1 / std::max(grid.width_m(cells) - usual_width_m, kSmallestSlack_m));
   all_false_.push_back(1);
@@ -287,17 +286,17 @@ Evidence::DoorTables Evidence::door_tables(const DoorEvidence& door, const RoomT
   const DoorHabit* habit = type != nullptr && type->door ? &*type->door : nullptr;
   DoorTables tables;
   if (habit != nullptr && door.width_sigma_m > 0)
-    tables.width =
-        kOtherWidthShare + (1 - kOtherWidthShare) * kDoorWidths_m *
-                               gauss(door.width_m, habit->width_m, std::hypot(door.width_sigma_m, kDoorWidthSd_m));
+    tables.width = kOtherWidthShare +
+                   (1 - kOtherWidthShare) * kDoorWidths_m *
+                       gauss(door.width_m, habit->width_m, std::hypot(door.width_sigma_m, kDoorWidthSd_m));
 
   double frame_m = kDoorFrame_m;  // unless the rules say that doors are nearer to the corner
   if (habit != nullptr)
     for (const DoorHabit::Place& place : habit->places) frame_m = std::min(frame_m, place.offset.mean_m);
   const double frame_reach_m = kGateSigmas * door.sigma_m + kDoorFrame_m;
-  tables.starts_before =
-      tabulate(near_m - frame_reach_m, near_m + frame_reach_m, 1, 0,
-               [&](double start_m) { return cumulative((near_m - frame_m - start_m) / door.sigma_m); });
+  tables.starts_before = tabulate(near_m - frame_reach_m, near_m + frame_reach_m, 1, 0, [&](double start_m) {
+    return cumulative((near_m - frame_m - start_m) / door.sigma_m);
+  });
   // The room ends a wall before the next one starts.
   const double next_m = far_m + grid_.wall_m;
   tables.ends_after = tabulate(next_m - frame_reach_m, next_m + frame_reach_m, 0, 1, [&](double start_m) {
@@ -372,9 +371,9 @@ void Evidence::doors(int type, int cell, int first, int stride, int count, doubl
 
     const std::size_t doors = last_door - first_door;
     const double anywhere = door_anywhere_[static_cast<std::size_t>(width)];
-    likelihoods[i] = none * all_false_[doors] +
-                     one * all_false_[doors - 1] *
-                         (elsewhere * anywhere * sums.anywhere + (1 - elsewhere) * sums.habit);
+    likelihoods[i] =
+        none * all_false_[doors] +
+        one * all_false_[doors - 1] * (elsewhere * anywhere * sums.anywhere + (1 - elsewhere) * sums.habit);
     if (doors < 2 || sums.all <= 0) continue;
     double all_real = options_.second_door_share * sums.all * anywhere * anywhere;
     for (std::size_t door = 2; door < doors; ++door) all_real *= kThirdDoorShare * anywhere;
