@@ -111,7 +111,7 @@ struct FitOptions {
   /// Prior share of evidence that belongs to a room which has other evidence, under another name.
   double duplicate_share = 0.01;
   double cut_off_share = 0.02;       ///< prior share of scans whose one wall is spurious, inside the room
-  double missed_wall_share = 0.001;  ///< prior share of scans that read two rooms as one
+  double missed_wall_share = 0.005;  ///< prior share of scans that read two rooms as one
   double doorless_share = 0.03;      ///< prior share of rooms without a door to the hallway
   double second_door_share = 0.05;   ///< prior share of rooms with two doors or more
   double false_door_share = 0.01;    ///< expected number of doors seen per space that are none
