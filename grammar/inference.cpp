@@ -112,11 +112,8 @@ NodeTable forward(const Lattice& lattice) {
       departures.take([&](int id, double factor) {
         const Emission& emission = lattice.row().emissions[static_cast<std::size_t>(id)];
         for (const Move& move : edges.moves(cell, emission.element, e)) {
-          double* target = &table.value[lattice.node(move.first_cell, emission.target, move.target_evidence)];
-          if (move.stride == 1)
-            for (int i = 0; i < move.count; ++i) target[i] += factor * move.sum[i];
-          else
-            for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
+          add_scaled(move, factor,
+                     &table.value[lattice.node(move.first_cell, emission.target, move.target_evidence)]);
         }
       });
     });

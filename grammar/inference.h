@@ -86,6 +86,14 @@ bool has_one_scale(const NodeTable& table, const Move& move, double scale);
 /// Sum of weights x values of the nodes that a move leads to.
 double dot(const double* weights, const double* values, int stride, int count);
 
+/// Adds factor x the move's sums to the values of the nodes that it leads to, of which `first` is the first.
+inline void add_scaled(const Move& move, double factor, double* first) {
+  if (move.stride == 1)  // told apart for wide registers
+    for (int i = 0; i < move.count; ++i) first[i] += factor * move.sum[i];
+  else
+    for (int i = 0; i < move.count; ++i) first[i * move.stride] += factor * move.sum[i];
+}
+
 /// Posterior probability of passing through each node, by the two sums.
 std::vector<double> node_posteriors(const Lattice& lattice, const NodeTable& forward,
                                     const NodeTable& backward);

@@ -149,8 +149,8 @@ class Search {
         departures_.take([&](int id, double factor) {
           const Emission& emission = lattice_.row().emissions[static_cast<std::size_t>(id)];
           for (const Move& move : edges_.moves(cell, emission.element, e)) {
-            double* target = &scratch_[lattice_.node(move.first_cell, emission.target, move.target_evidence)];
-            for (int i = 0; i < move.count; ++i) target[i * move.stride] += factor * move.sum[i];
+            add_scaled(move, factor,
+                       &scratch_[lattice_.node(move.first_cell, emission.target, move.target_evidence)]);
             touch(move.target_evidence, emission.target, move.first_cell, move.last_cell());
           }
         });
