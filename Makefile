@@ -26,11 +26,12 @@ test-sanitized:
 	cmake --build --preset asan-ubsan -j $(JOBS) --target $(SANITIZED)
 	ctest --preset asan-ubsan -R '^(test_geometry|test_grammar_language)$$'
 
-# The same for every test: some minutes more.
-test-sanitized-all:
+# The same for every test, and whether that build type writes the same bytes as the other: an hour.
+test-sanitized-all: build
 	cmake --preset asan-ubsan
 	cmake --build --preset asan-ubsan -j $(JOBS)
 	ctest --preset asan-ubsan
+	tests/app/same-bytes $(CURDIR) $(CURDIR)/build/gramap $(CURDIR)/build/asan-ubsan/gramap
 
 # Every fuzzer for FUZZ_SECONDS, two at a time, and a row for each; what they find lies in build/fuzz/fuzz/NAME/.
 fuzz: packages
@@ -72,10 +73,11 @@ wall-pictures: build
 	cp build/walls/220_wall0.png docs/walls/hallway.png
 	cp build/walls/201_wall3.png docs/walls/cupboard.png
 
-# clang-tidy over all sources (.clang-tidy says what); what it finds is an error.
-tidy: build
+# clang-tidy over all sources (.clang-tidy says what); what it finds is an error. Stopped, it goes on where it was.
+tidy: packages
 	scripts/install-packages packages-tidy.txt
-	git ls-files '*.cpp' | grep -v '^tests/' | xargs -P $(JOBS) -n 4 clang-tidy -p build --quiet --extra-arg=-Wno-unknown-warning-option
+	cmake --preset tidy
+	cmake --build --preset tidy -j $(JOBS) -- -k 0
 
 # The share of lines of gramap that the tests run.
 coverage: packages

@@ -38,7 +38,8 @@ double shared_area(const Polygon& a, const Polygon& b) {
   for (const Vec2& point : b) heights.push_back(point.y());
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const Vec2 p = a[i], r = a[(i + 1) % a.size()] - p, q = b[j], s = b[(j + 1) % b.size()] - q;
+      const Vec2 &p = a[i], &q = b[j];
+      const Vec2 r = a[(i + 1) % a.size()] - p, s = b[(j + 1) % b.size()] - q;
       const double turn = r.x() * s.y() - r.y() * s.x();
       if (turn == 0) continue;
       const Vec2 d = q - p;
