@@ -186,8 +186,9 @@ std::optional<StructuralAxis> find_axis(const std::vector<double>& pitches_m, do
   if (pitches_m.size() < 4) return std::nullopt;
   const double longest = *std::max_element(pitches_m.begin(), pitches_m.end());
   std::optional<StructuralAxis> best;
-  for (double period = 1.0; period <= std::min(longest + 0.5, 12.0); period += 0.01) {
-    const Explained first = explain(pitches_m, period, resolution_m);
+  const int most_cm = static_cast<int>(100 * std::min(longest + 0.5, 12.0));
+  for (int period_cm = 100; period_cm <= most_cm; ++period_cm) {
+    const Explained first = explain(pitches_m, 0.01 * period_cm, resolution_m);
     if (!std::isfinite(first.length)) continue;
     const Explained refined = explain(pitches_m, first.refined, resolution_m);
     if (!std::isfinite(refined.length)) continue;
