@@ -34,7 +34,8 @@ int update(const LearnArguments& arguments, const LearnData& data) {
   for (const std::string& rule : updated.left_alone)
     std::fprintf(stderr, "gramap: note: the probability of %s is no plain number and stays as it is\n",
                  rule.c_str());
-  std::fprintf(stderr, "gramap: wrote %d probabilities anew\n", updated.probabilities);
+  std::fprintf(stderr, "gramap: wrote %d probabilities and %d numbers of widths anew\n",
+               updated.probabilities, updated.widths);
   return updated.unfilled.empty() ? kDone : kSetAside;
 }
 
@@ -66,11 +67,15 @@ Verb declare_learn(CLI::App& gramap) {
   verb->add_option("-o,--output", arguments->output, "The rule file to write; - is standard output")
       ->capture_default_str();
   verb->add_option("--name", arguments->options.name, "Name of the grammar")->capture_default_str();
-  verb->add_option("--update", arguments->update,
-                   "Refine this rule file instead: its probabilities are re-estimated with the floors, "
-                   "everything else in it stays as it is");
-  verb->add_option("--weight", arguments->updating.weight,
-                   "With --update: how many uses of each symbol the file's own probabilities are worth")
+  verb->add_option(
+      "--update", arguments->update,
+      "Refine this rule file instead: the probabilities of its rules and the widths of its rooms "
+      "are re-estimated with the floors where they are plain numbers; everything else in it "
+      "stays as it is");
+  verb->add_option(
+          "--weight", arguments->updating.weight,
+          "With --update: how many uses of each symbol, and rooms of each type, the file's own numbers "
+          "are worth")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_option("--wall", arguments->wall_m,

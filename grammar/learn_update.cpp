@@ -6,6 +6,7 @@
 #include <map>
 
 #include "geometry/error.h"
+#include "grammar/format.h"
 #include "grammar/inference.h"
 #include "grammar/language.h"
 #include "grammar/row_evidence.h"
@@ -25,9 +26,54 @@ SpaceProblem problem_of(const KnownRow& row, double wall_m, double sigma_m) {
   return problem;
 }
 
-/// Adds the expected uses of each rule, given the evidence; false when no derivation fills the space.
-bool add_expected_uses(const RuleSet& rules, const SpaceProblem& problem, double grid_m,
-                       std::vector<double>& uses) {
+/// Rooms that were expected to have one of a type's widths: how many, and the sums of their widths and of the
+/// squares, less the width that is written.
+struct WidthSums {
+  double count = 0, off = 0, square = 0;
+};
+
+struct Expected {
+  std::vector<double> uses;                    // by rule
+  std::vector<std::vector<WidthSums>> widths;  // by room type and component of its width
+};
+
+/// Whether the element is a room of a type in one of the widths that the type itself says.
+bool has_own_width(const RuleSet& rules, const Element& element) {
+  if (element.kind != Element::Width::mixture || element.rooms.size() != 1) return false;
+  const int type = element.first_type();
+  if (type < 0) return false;
+  const auto& own = rules.rooms[static_cast<std::size_t>(type)].width.components;
+  return std::equal(own.begin(), own.end(), element.mixture.components.begin(),
+                    element.mixture.components.end(), [](const auto& a, const auto& b) {
+                      return a.weight == b.weight && a.normal.mean_m == b.normal.mean_m &&
+                             a.normal.sd_m == b.normal.sd_m;
+                    });
+}
+
+/// Adds a room of known width to the components of its type's width that may have made it.
+void add_width(const Mixture& mixture, double width_m, double sigma_m, double probability,
+               std::vector<WidthSums>& sums) {
+  std::vector<double> shares;
+  double all = 0;
+  for (const Mixture::Component& component : mixture.components) {
+    const double sd = std::hypot(component.normal.sd_m, sigma_m);
+    const double u = (width_m - component.normal.mean_m) / sd;
+    shares.push_back(component.weight / sd * std::exp(-0.5 * u * u));
+    all += shares.back();
+  }
+  if (all <= 0) return;
+  for (std::size_t c = 0; c < shares.size(); ++c) {
+    const double share = probability * shares[c] / all;
+    const double off = width_m - mixture.components[c].normal.mean_m;
+    sums[c].count += share;
+    sums[c].off += share * off;
+    sums[c].square += share * off * off;
+  }
+}
+
+/// Adds the expected uses of each rule and the rooms of each width, given the evidence; false when no
+/// derivation fills the space.
+bool add_expected(const RuleSet& rules, const SpaceProblem& problem, double grid_m, Expected& expected) {
   FitOptions options;
   options.grid_m = grid_m;
   const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, grid_m);
@@ -45,22 +91,30 @@ bool add_expected_uses(const RuleSet& rules, const SpaceProblem& problem, double
     for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
       if (before.value[node] <= 0) return;
       for (const Arc& arc : lattice.arcs(state, cell)) {
+        const Element& element = compiled.row.elements[static_cast<std::size_t>(arc.element)];
+        const bool own_width = has_own_width(rules, element);
+        const double departing = before.value[node] * arc.probability;
         double probability = 0;
         for (const Move& move : edges.moves(cell, arc.element, e)) {
+          double of_move = 0;
           const double* target =
               &behind.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
           for (int i = 0; i < move.count; ++i) {
             const double weight = move.sum[i] * target[i * move.stride];
             if (weight <= 0) continue;
             const auto reached = static_cast<std::size_t>(move.first_cell + i * move.stride);
-            probability += weight * std::exp(behind.log_scale[reached] + scale);
+            of_move += departing * weight * std::exp(behind.log_scale[reached] + scale);
           }
+          probability += of_move;
+          if (!own_width || move.matched < 0 || move.target_evidence % 2 == 1) continue;
+          const PreparedEvidence& seen = evidence.rooms()[static_cast<std::size_t>(move.matched)];
+          const auto type = static_cast<std::size_t>(element.first_type());
+          add_width(rules.rooms[type].width, seen.width_m, seen.width_sd_m, of_move, expected.widths[type]);
         }
-        probability *= before.value[node] * arc.probability;
         for (const DerivationStep& step : arc.steps)
-          if (step.rule >= 0) uses[static_cast<std::size_t>(step.rule)] += probability;
-        for (const InnerUse& use : compiled.row.elements[static_cast<std::size_t>(arc.element)].uses)
-          uses[static_cast<std::size_t>(use.rule)] += probability;
+          if (step.rule >= 0) expected.uses[static_cast<std::size_t>(step.rule)] += probability;
+        for (const InnerUse& use : element.uses)
+          expected.uses[static_cast<std::size_t>(use.rule)] += probability;
       }
     });
   }
@@ -78,6 +132,59 @@ std::string as_written(double share, const std::string& unit) {
   return text + (unit == "%" ? std::string(" %") : std::string());
 }
 
+/// To the millimetre.
+std::string length_as_written(double length_m, const std::string& unit) {
+  char text[48];
+  if (unit == "mm")
+    std::snprintf(text, sizeof text, "%.0f mm", 1000 * length_m);
+  else if (unit == "cm")
+    std::snprintf(text, sizeof text, "%.4g cm", 0.1 * std::round(1000 * length_m));
+  else
+    std::snprintf(text, sizeof text, "%.3f m", length_m);
+  return text;
+}
+
+bool is_number(const syntax::Expr& expr) {
+  return expr.kind == syntax::Expr::Kind::number;
+}
+
+/// A type's width anew: the file's own is worth `weight` rooms, spread over its components by their shares.
+/// Means, deviations and shares that are plain numbers are replaced; what is made of constants stays.
+void update_width(const std::vector<syntax::Alternative>& written, const Mixture& mixture,
+                  const std::vector<WidthSums>& sums, double weight, std::vector<Replacement>& replacements) {
+  constexpr double kLeastRooms = 0.5;   // fewer say nothing
+  constexpr double kLeastSd_m = 0.001;  // as far as numbers are written
+  double rooms = 0, shares = 0;
+  bool has_shares = true;
+  for (std::size_t c = 0; c < written.size(); ++c) {
+    rooms += sums[c].count;
+    shares += mixture.components[c].weight;
+    has_shares = has_shares && written[c].weight && is_number(*written[c].weight);
+  }
+  if (rooms < kLeastRooms) return;
+  for (std::size_t c = 0; c < written.size(); ++c) {
+    const Mixture::Component& own = mixture.components[c];
+    const double own_rooms = weight * own.weight / shares;
+    const double all = own_rooms + sums[c].count;
+    if (has_shares)
+      replacements.push_back(
+          {written[c].weight->span, as_written(shares * all / (weight + rooms), written[c].weight->text)});
+    if (sums[c].count < kLeastRooms) continue;
+    const syntax::Quantity& quantity = written[c].quantity;
+    const double shift = is_number(quantity.mean) ? sums[c].off / all : 0;
+    if (is_number(quantity.mean))
+      replacements.push_back(
+          {quantity.mean.span, length_as_written(own.normal.mean_m + shift, quantity.mean.text)});
+    if (!quantity.sd || !is_number(*quantity.sd)) continue;
+    // How exactly rooms are built is no matter of one width: what is written counts in full for each.
+    const double squares =
+        own_rooms * shift * shift + sums[c].square - 2 * shift * sums[c].off + sums[c].count * shift * shift;
+    const double variance = (weight * own.normal.sd_m * own.normal.sd_m + squares) / (weight + sums[c].count);
+    replacements.push_back(
+        {quantity.sd->span, length_as_written(std::max(std::sqrt(variance), kLeastSd_m), quantity.sd->text)});
+  }
+}
+
 }  // namespace
 
 UpdatedRules update_rules(const std::string& text, const std::string& name, const LearnData& data,
@@ -87,12 +194,15 @@ UpdatedRules update_rules(const std::string& text, const std::string& name, cons
     throw InputError({name}, "this rule file has errors", "gramap check names them; mend them first");
   const RuleSet& rules = *checked.rules;
   UpdatedRules updated;
-  std::vector<double> uses(rules.rules.size(), 0);
+  Expected expected;
+  expected.uses.assign(rules.rules.size(), 0);
+  for (const RoomType& room : rules.rooms) expected.widths.emplace_back(room.width.components.size());
+  const std::vector<double>& uses = expected.uses;
   std::size_t made = 0;
   for (const KnownRow& row : data.rows) {
     if (!row.whole || row.rooms.empty()) continue;
     const SpaceProblem problem = problem_of(row, data.inner_wall_m, options.width_sigma_m);
-    if (add_expected_uses(rules, problem, options.grid_m, uses))
+    if (add_expected(rules, problem, options.grid_m, expected))
       ++made;
     else
       updated.unfilled.push_back(row.floor + ", " + row.space);
@@ -134,13 +244,27 @@ UpdatedRules update_rules(const std::string& text, const std::string& name, cons
       replacements.push_back({number.span, as_written(symbol.shares * now, number.text)});
     }
   }
+  updated.probabilities = static_cast<int>(replacements.size());
+  for (const syntax::Room& room : file.rooms) {
+    const auto type = static_cast<std::size_t>(
+        std::find_if(rules.rooms.begin(), rules.rooms.end(),
+                     [&](const RoomType& known) { return known.name == room.name.text; }) -
+        rules.rooms.begin());
+    for (const syntax::RoomItem& item : room.items)
+      if (item.word.text == "width" && type < rules.rooms.size() &&
+          item.alternatives.size() == expected.widths[type].size())
+        update_width(item.alternatives, rules.rooms[type].width, expected.widths[type], options.weight,
+                     replacements);
+  }
+  updated.widths = static_cast<int>(replacements.size()) - updated.probabilities;
   updated.text = text;
   std::sort(replacements.begin(), replacements.end(),
             [](const Replacement& a, const Replacement& b) { return a.span.begin > b.span.begin; });
   for (const Replacement& replacement : replacements)
     updated.text.replace(replacement.span.begin, replacement.span.end - replacement.span.begin,
                          replacement.text);
-  updated.probabilities = static_cast<int>(replacements.size());
+  // A file in canonical form stays in it: longer numbers move what is aligned with them.
+  if (format_rules(text).text == text) updated.text = *format_rules(updated.text).text;
   return updated;
 }
 
