@@ -45,27 +45,31 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
       "Floor file (floor.geojson), or a floor folder that may also hold scans/; for fit also a "
       "folder of floor folders");
   verb.add_option("-r,--rules", options.rules, "Rule file")->required();
-  verb.add_option(
+  auto* scans = verb.add_option(
       "-s,--scans", options.scans,
       "Folder with a folder of scans for each room, or the ROOM.json that `gramap perceive` made of "
       "it [FLOOR/scans when the floor is a folder]");
-  verb.add_flag("--drawn-rooms", options.drawn_rooms,
-                "Take the rooms that the floor file draws as if they had been scanned: a fitted floor's "
-                "GeoJSON (gramap export) "
-                "comes back as it was");
-  verb.add_option("--without", options.without, "Rooms whose scans to leave out, separated by commas")
-      ->delimiter(',');
+  auto* drawn_rooms =
+      verb.add_flag("--drawn-rooms", options.drawn_rooms,
+                    "Take the rooms that the floor file draws as if they had been scanned: a fitted floor's "
+                    "GeoJSON (gramap export) "
+                    "comes back as it was");
+  auto* without =
+      verb.add_option("--without", options.without, "Rooms whose scans to leave out, separated by commas")
+          ->delimiter(',');
   const std::map<std::string, ScanFrame> frames{
       {"auto", ScanFrame::automatic}, {"building", ScanFrame::building}, {"room", ScanFrame::room}};
-  verb.add_option("--frame", options.fit.placement.frame,
-                  "Frame of the poses: building, room (of its own, placed by pins), or auto: room where "
-                  "there is a pin")
-      ->transform(CLI::CheckedTransformer(frames, CLI::ignore_case))
-      ->default_str("auto");
-  verb.add_option("--pose-sigma", options.fit.placement.pose_sigma_m,
-                  "How far a room's poses may be off in the building's frame, metres (1 sigma)")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+  auto* frame =
+      verb.add_option("--frame", options.fit.placement.frame,
+                      "Frame of the poses: building, room (of its own, placed by pins), or auto: room where "
+                      "there is a pin")
+          ->transform(CLI::CheckedTransformer(frames, CLI::ignore_case))
+          ->default_str("auto");
+  auto* pose_sigma =
+      verb.add_option("--pose-sigma", options.fit.placement.pose_sigma_m,
+                      "How far a room's poses may be off in the building's frame, metres (1 sigma)")
+          ->capture_default_str()
+          ->check(CLI::PositiveNumber);
   verb.add_option("--outlier-share", options.fit.space.outlier_share,
                   "Prior share of scanned rooms whose width is wrong")
       ->capture_default_str()
@@ -84,11 +88,14 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
                   "With --rls: standard deviation of an extracted width, metres")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  verb.add_option(
-          "--hallway-seed", options.hallway_seed,
-          "With a floor that gives neither hallways nor spaces: the same seed grows the same hallways from "
-          "the rules")
-      ->capture_default_str();
+  auto* hallway_seed = verb.add_option("--hallway-seed", options.hallway_seed,
+                                       "With a floor that gives neither hallways nor spaces: the same seed "
+                                       "grows the same hallways from "
+                                       "the rules")
+                           ->capture_default_str();
+  // What says how a floor and its scans are read means nothing to segments.
+  for (CLI::Option* option : {scans, drawn_rooms, without, frame, pose_sigma, hallway_seed})
+    rls->excludes(option);
   verb.add_flag("-q,--quiet", options.quiet, "No progress");
 }
 
@@ -149,17 +156,20 @@ int naming_floor(const FitInputOptions& options, const std::function<int()>& ver
 
 std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions& options) {
   std::vector<std::pair<std::string, std::string>> items;
+  items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
+  items.emplace_back("least-error", options.fit.space.least_error ? "true" : "false");
+  if (!options.rls.empty()) {
+    items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));
+    return items;
+  }
   std::string without;
   for (const std::string& room : options.without) without += (without.empty() ? "" : ",") + room;
   if (!without.empty()) items.emplace_back("without", without);
   const char* frames[] = {"auto", "building", "room"};
   items.emplace_back("frame", frames[static_cast<int>(options.fit.placement.frame)]);
   items.emplace_back("pose-sigma", number(options.fit.placement.pose_sigma_m));
-  items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
-  items.emplace_back("least-error", options.fit.space.least_error ? "true" : "false");
   items.emplace_back("drawn-rooms", options.drawn_rooms ? "true" : "false");
   items.emplace_back("hallway-seed", std::to_string(options.hallway_seed));
-  if (!options.rls.empty()) items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));
   return items;
 }
 

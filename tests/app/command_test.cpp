@@ -219,6 +219,19 @@ TEST_CASE("wrong usage: exit 2 and where to find help") {
   CHECK(project.run("--version").code == 0);
 }
 
+TEST_CASE("segments are not fitted with options of a floor's scans: exit 2, both options named") {
+  const Project project;
+  const std::string fit = "fit --rls a.csv --rules-csv b.csv --rules c.grammar -o d.glb ";
+  for (const char* option :
+       {"--drawn-rooms", "--scans .", "--without N1", "--frame room", "--pose-sigma 1", "--hallway-seed 2"}) {
+    const auto result = project.run(fit + option);
+    INFO(option);
+    CHECK(result.code == 2);
+    CHECK(has(result.error, "--rls"));
+    CHECK(has(result.error, std::string(option).substr(0, std::string(option).find(' '))));
+  }
+}
+
 TEST_CASE("an output folder that is not there, and an output that is a folder: exit 1") {
   const Project project;
   for (const std::string output : {"/nowhere/model.glb", "/"}) {
