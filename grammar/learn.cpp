@@ -7,6 +7,7 @@
 
 #include "geometry/error.h"
 #include "grammar/keywords.h"
+#include "grammar/learn_filling.h"
 #include "grammar/learn_habits.h"
 #include "grammar/learn_sequence.h"
 #include "grammar/learn_unseen.h"
@@ -438,7 +439,8 @@ void learn_after(LearnedRules& rules, const std::vector<std::vector<int>>& deriv
   }
 }
 
-void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classes) {
+/// Returns the rules of each row's derivation.
+std::vector<std::vector<int>> learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classes) {
   const std::vector<ClassPlaces> places = count_places(rules, classes);
   double rooms = 0, ends = 0;
   for (const ClassPlaces& place : places)
@@ -448,10 +450,13 @@ void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classe
     at_end[c] = rules.options.uniform ? false : belongs_to_ends(places[c], ends / rooms);
 
   // The first rooms. What stands only at ends is expected at the other end too, at half the weight: which end
-  // of a space is its start is a matter of the hallway's side.
+  // of a space is its start is a matter of the hallway's side. Of many spaces each end speaks for itself: the
+  // other one counts as four of them.
+  constexpr double kOtherEndSpaces = 4;
+  const double other_end = std::min(0.5, kOtherEndSpaces / static_cast<double>(classes.size()));
   std::vector<int> first_rule(places.size(), -1), last_rule(places.size(), -1);
   for (std::size_t c = 0; c < places.size(); ++c) {
-    const double count = places[c].first + (at_end[c] ? 0.5 * places[c].last : 0);
+    const double count = places[c].first + (at_end[c] ? other_end * places[c].last : 0);
     if (count == 0) continue;
     LearnedRule rule;
     rule.first = true;
@@ -496,7 +501,7 @@ void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classe
     LearnedRule rule;
     rule.last_only = true;
     rule.classes = {static_cast<int>(c)};
-    rule.count = places[c].last + 0.5 * places[c].first;
+    rule.count = places[c].last + other_end * places[c].first;
     last_rule[c] = static_cast<int>(rules.rules.size());
     add_rule(rules, rule, "last_" + class_name(rules, static_cast<int>(c)));
   }
@@ -518,7 +523,7 @@ void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classe
 
   if (rules.options.uniform) {
     for (LearnedRule& rule : rules.rules) rule.probability = 1;
-    return;
+    return {};
   }
   std::vector<std::vector<int>> derivations;
   for (std::size_t r = 0; r < classes.size(); ++r) {
@@ -532,6 +537,7 @@ void learn_rows(LearnedRules& rules, const std::vector<std::vector<int>>& classe
   }
   learn_after(rules, derivations);
   keep_unseen_after(rules);
+  return derivations;
 }
 
 }  // namespace
@@ -549,13 +555,14 @@ LearnedRules learn_rules(const LearnData& data, const LearnOptions& options) {
   find_structural_axis(rules);
   const std::vector<std::vector<int>> classes = classify(rules);
   generalise_widths(rules);
-  learn_rows(rules, classes);
+  const std::vector<std::vector<int>> derivations = learn_rows(rules, classes);
   double least = 1e9, most = 0;
   for (const KnownRow& row : rules.data.rows)
     for (const KnownRoom& room : row.rooms)
       least = std::min(least, room.width_m), most = std::max(most, room.width_m);
   rules.least_width_m = std::max(0.5, std::floor(5 * least) / 10);
   rules.most_width_m = std::ceil(1.5 * most);
+  if (!options.uniform) match_filling(rules, derivations);
   return rules;
 }
 

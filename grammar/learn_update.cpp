@@ -6,8 +6,8 @@
 #include <map>
 
 #include "geometry/error.h"
+#include "grammar/expected_uses.h"
 #include "grammar/format.h"
-#include "grammar/inference.h"
 #include "grammar/language.h"
 #include "grammar/row_evidence.h"
 #include "grammar/space.h"
@@ -24,101 +24,6 @@ SpaceProblem problem_of(const KnownRow& row, double wall_m, double sigma_m) {
   for (const KnownRoom& room : row.rooms) problem.depth_m = std::max(problem.depth_m, room.depth_m);
   problem.rooms = row_evidence(row, wall_m, sigma_m, sigma_m, 0.9);
   return problem;
-}
-
-/// Rooms that were expected to have one of a type's widths: how many, and the sums of their widths and of the
-/// squares, less the width that is written.
-struct WidthSums {
-  double count = 0, off = 0, square = 0;
-};
-
-struct Expected {
-  std::vector<double> uses;                    // by rule
-  std::vector<std::vector<WidthSums>> widths;  // by room type and component of its width
-};
-
-/// Whether the element is a room of a type in one of the widths that the type itself says.
-bool has_own_width(const RuleSet& rules, const Element& element) {
-  if (element.kind != Element::Width::mixture || element.rooms.size() != 1) return false;
-  const int type = element.first_type();
-  if (type < 0) return false;
-  const auto& own = rules.rooms[static_cast<std::size_t>(type)].width.components;
-  return std::equal(own.begin(), own.end(), element.mixture.components.begin(),
-                    element.mixture.components.end(), [](const auto& a, const auto& b) {
-                      return a.weight == b.weight && a.normal.mean_m == b.normal.mean_m &&
-                             a.normal.sd_m == b.normal.sd_m;
-                    });
-}
-
-/// Adds a room of known width to the components of its type's width that may have made it.
-void add_width(const Mixture& mixture, double width_m, double sigma_m, double probability,
-               std::vector<WidthSums>& sums) {
-  std::vector<double> shares;
-  double all = 0;
-  for (const Mixture::Component& component : mixture.components) {
-    const double sd = std::hypot(component.normal.sd_m, sigma_m);
-    const double u = (width_m - component.normal.mean_m) / sd;
-    shares.push_back(component.weight / sd * std::exp(-0.5 * u * u));
-    all += shares.back();
-  }
-  if (all <= 0) return;
-  for (std::size_t c = 0; c < shares.size(); ++c) {
-    const double share = probability * shares[c] / all;
-    const double off = width_m - mixture.components[c].normal.mean_m;
-    sums[c].count += share;
-    sums[c].off += share * off;
-    sums[c].square += share * off * off;
-  }
-}
-
-/// Adds the expected uses of each rule and the rooms of each width, given the evidence; false when no
-/// derivation fills the space.
-bool add_expected(const RuleSet& rules, const SpaceProblem& problem, double grid_m, Expected& expected) {
-  FitOptions options;
-  options.grid_m = grid_m;
-  const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, grid_m);
-  const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
-  if (compiled.fault) return false;
-  const Evidence evidence(rules, problem, options, grid);
-  const Lattice lattice(compiled.row, grid, evidence);
-  const NodeTable before = forward(lattice);
-  const double total = log_total(lattice, before);
-  if (!std::isfinite(total)) return false;
-  const NodeTable behind = backward(lattice, before);
-  Edges edges(lattice);
-  for (int cell = 0; cell < grid.cells; ++cell) {
-    const double scale = before.log_scale[static_cast<std::size_t>(cell)] - total;
-    for_each_node(lattice, cell, [&](int e, int state, std::size_t node) {
-      if (before.value[node] <= 0) return;
-      for (const Arc& arc : lattice.arcs(state, cell)) {
-        const Element& element = compiled.row.elements[static_cast<std::size_t>(arc.element)];
-        const bool own_width = has_own_width(rules, element);
-        const double departing = before.value[node] * arc.probability;
-        double probability = 0;
-        for (const Move& move : edges.moves(cell, arc.element, e)) {
-          double of_move = 0;
-          const double* target =
-              &behind.value[lattice.node(move.first_cell, arc.target, move.target_evidence)];
-          for (int i = 0; i < move.count; ++i) {
-            const double weight = move.sum[i] * target[i * move.stride];
-            if (weight <= 0) continue;
-            const auto reached = static_cast<std::size_t>(move.first_cell + i * move.stride);
-            of_move += departing * weight * std::exp(behind.log_scale[reached] + scale);
-          }
-          probability += of_move;
-          if (!own_width || move.matched < 0 || move.target_evidence % 2 == 1) continue;
-          const PreparedEvidence& seen = evidence.rooms()[static_cast<std::size_t>(move.matched)];
-          const auto type = static_cast<std::size_t>(element.first_type());
-          add_width(rules.rooms[type].width, seen.width_m, seen.width_sd_m, of_move, expected.widths[type]);
-        }
-        for (const DerivationStep& step : arc.steps)
-          if (step.rule >= 0) expected.uses[static_cast<std::size_t>(step.rule)] += probability;
-        for (const InnerUse& use : element.uses)
-          expected.uses[static_cast<std::size_t>(use.rule)] += probability;
-      }
-    });
-  }
-  return true;
 }
 
 struct Replacement {
@@ -194,15 +99,13 @@ UpdatedRules update_rules(const std::string& text, const std::string& name, cons
     throw InputError({name}, "this rule file has errors", "gramap check names them; mend them first");
   const RuleSet& rules = *checked.rules;
   UpdatedRules updated;
-  Expected expected;
-  expected.uses.assign(rules.rules.size(), 0);
-  for (const RoomType& room : rules.rooms) expected.widths.emplace_back(room.width.components.size());
-  const std::vector<double>& uses = expected.uses;
+  ExpectedUses expected(rules);
+  const std::vector<double>& uses = expected.rules;
   std::size_t made = 0;
   for (const KnownRow& row : data.rows) {
     if (!row.whole || row.rooms.empty()) continue;
     const SpaceProblem problem = problem_of(row, data.inner_wall_m, options.width_sigma_m);
-    if (add_expected(rules, problem, options.grid_m, expected))
+    if (expected.add(problem, options.grid_m))
       ++made;
     else
       updated.unfilled.push_back(row.floor + ", " + row.space);

@@ -26,7 +26,7 @@ const std::vector<double> kLengths_m = {21, 34, 47};
 constexpr double kDepth_m = 5;
 /// A chain of rooms does not know of conditions on the length that is left, nor of bounds on repeats: numbers
 /// of rooms may differ by this share for it.
-constexpr double kChain = 0.15;
+constexpr double kChain = 0.05;
 
 struct Tally {
   double count = 0, sum = 0, squares = 0;
