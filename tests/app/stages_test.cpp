@@ -1,5 +1,7 @@
 // Each stage starts again from the files of the one before.
+#include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "floor/ground_truth.h"
 #include "geometry/polygon.h"
@@ -52,4 +54,43 @@ TEST_CASE("a fitted floor's GeoJSON, fitted again, gives back its rooms") {
   };
   CHECK(rooms(redrawn) == rooms(drawn));
   CHECK(rooms(redrawn).size() == 10);  // the hallway is one
+}
+
+TEST_CASE(
+    "half of a building unlike any rule file: any_building keeps what was scanned, learned rules derive the "
+    "rest") {
+  const Project project;
+  const fs::path floor = project.folder() / "clinic", seen = project.folder() / "seen",
+                 rules = project.folder() / "own.grammar";
+  REQUIRE(project
+              .run("simulate " GRAMAP_SOURCE_DIR "/tests/app/clinic.geojson --seed 9 --points 20000 -o '" +
+                   floor.string() + "'")
+              .code == 0);
+  for (const char* room : {"A3", "A5", "A6", "B2", "B4", "B5"}) fs::remove_all(floor / "scans" / room);
+  REQUIRE(project.run("perceive '" + floor.string() + "' -o '" + seen.string() + "'").code == 0);
+  const auto fit_with = [&](const std::string& rule_file) {
+    return project.run("fit -q '" + floor.string() + "' --scans '" + seen.string() + "' --rules '" +
+                       rule_file + "' -o '" + project.model().string() + "'");
+  };
+  const auto guessed = fit_with(GRAMAP_SOURCE_DIR "/rules/any_building.grammar");
+  REQUIRE_MESSAGE((guessed.code == 0 || guessed.code == 4), guessed.error);
+  REQUIRE(project.run("learn '" + project.model().string() + "' -o '" + rules.string() + "'").code == 0);
+  const auto derived = fit_with(rules.string());
+  REQUIRE_MESSAGE((derived.code == 0 || derived.code == 4), derived.error);
+  for (const auto& [table, derived_within_m] : {std::pair{guessed.out, 0.2}, {derived.out, 0.1}}) {
+    std::istringstream lines(table);
+    int rooms = 0;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string space, room, type, origin, extracted;
+      double fitted_m = 0;
+      if (!(words >> space >> room >> type >> origin >> extracted >> fitted_m) || space[0] != 'H') continue;
+      INFO(line);
+      ++rooms;
+      if (origin == "observed") CHECK(std::abs(fitted_m - std::stod(extracted)) < 0.01);
+      // All rooms that nobody scanned are 3.30 m wide, but one of 3.24 m.
+      if (origin == "derived") CHECK(std::abs(fitted_m - 3.30) < derived_within_m);
+    }
+    CHECK(rooms == 12);
+  }
 }
