@@ -19,14 +19,23 @@ Building building_of(const FloorTruth& truth) {
     index[room.id] = building.rooms.size();
     building.rooms.push_back({room.id, room.outline, room.floor_m, room.ceiling_m, {}, {}});
   }
-  for (const TrueOpening& opening : truth.openings)
-    if (const auto room = index.find(opening.room); room != index.end())
-      building.rooms[room->second].openings.push_back(
-          {opening.kind, opening.a, opening.b, opening.sill_m, opening.head_m});
+  const auto room_of = [&](const std::string& what, const std::string& id) -> BuildingRoom& {
+    const auto room = index.find(id);
+    if (room == index.end())
+      throw InputError({}, "a " + what + " belongs to no room, so no scan would show it",
+                       "add \"room\" to the feature's properties, the id of the room that it is seen from");
+    return building.rooms[room->second];
+  };
+  for (const TrueOpening& opening : truth.openings) {
+    BuildingRoom& room = room_of(opening.kind, opening.room);
+    if (!(opening.head_m > opening.sill_m))
+      throw InputError({}, "a " + opening.kind + " of room '" + opening.room + "' has no height",
+                       "give its feature \"sill\" and \"head\" in metres over the floor");
+    room.openings.push_back({opening.kind, opening.a, opening.b, opening.sill_m, opening.head_m});
+  }
   for (const TrueFurniture& piece : truth.furniture)
-    if (const auto room = index.find(piece.room); room != index.end())
-      building.rooms[room->second].furniture.push_back(
-          {piece.type, piece.outline, piece.bottom_m, piece.top_m, false});
+    room_of("piece of furniture", piece.room)
+        .furniture.push_back({piece.type, piece.outline, piece.bottom_m, piece.top_m, false});
   return building;
 }
 

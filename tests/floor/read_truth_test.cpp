@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "floor/building.h"
 #include "floor/ground_truth.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
@@ -79,4 +80,27 @@ TEST_CASE("a door of a room that is not there, a ceiling below the floor, a room
   truth.rooms.push_back(truth.rooms[0]);
   CHECK_THROWS_AS(read_truth(folder.write("c.geojson", to_geojson({}, truth))), InputError);
   CHECK_THROWS_AS(read_truth(folder.path() / "d.geojson"), InputError);
+}
+
+TEST_CASE(
+    "a building to simulate has no doors of no room or of no height: they would be left out in silence") {
+  FloorTruth truth;
+  TrueRoom room;
+  room.id = "A";
+  room.outline = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+  room.ceiling_m = 2.6;
+  truth.rooms = {room};
+  TrueOpening door;
+  door.kind = "door";
+  door.room = "A";
+  door.a = {1, 0};
+  door.b = {2, 0};
+  door.head_m = 2.1;
+  truth.openings = {door};
+  CHECK(building_of(truth).rooms.at(0).openings.size() == 1);
+  truth.openings[0].room = "";
+  CHECK_THROWS_WITH_AS(building_of(truth), doctest::Contains("belongs to no room"), InputError);
+  truth.openings[0] = door;
+  truth.openings[0].head_m = 0;
+  CHECK_THROWS_WITH_AS(building_of(truth), doctest::Contains("has no height"), InputError);
 }
