@@ -144,13 +144,13 @@ struct Explained {
   double multiples = 0;  ///< root of the sum of squared multiples of what fits
 };
 
-/// The pitches as multiples of `period`, with normal residuals and a few stragglers.
-Explained explain(const std::vector<double>& pitches, double period, double resolution_m) {
+/// The pitches as multiples of `period`, with normal residuals, first of `sd`, and stragglers.
+Explained explain(const std::vector<double>& pitches, double period, double sd, double resolution_m) {
   const double n = static_cast<double>(pitches.size());
-  double sd = std::max(resolution_m, 0.02 * period);
+  double share = 1 / (n + 1);  // of stragglers
   Explained result;
   for (int round = 0; round < 4; ++round) {
-    const double straggler = std::log(12.0) + std::log(n + 1);  // a width of its own, and that it is one
+    const double straggler = std::log(12.0) - std::log(share);  // a width of its own, and that it is one
     std::map<int, double> counts;
     double squares = 0, fitting = 0, kp = 0, kk = 0, stragglers = 0;
     for (const double pitch : pitches) {
@@ -169,6 +169,7 @@ Explained explain(const std::vector<double>& pitches, double period, double reso
     result.length = std::numeric_limits<double>::infinity();
     if (fitting < 2 || fitting < 0.6 * n) return result;
     sd = std::max(resolution_m, std::sqrt(squares / fitting));
+    share = (stragglers + 1) / (n + 1);
     result.sd = sd;
     result.refined = kp / kk;
     result.multiples = std::sqrt(kk);
@@ -188,13 +189,17 @@ std::optional<StructuralAxis> find_axis(const std::vector<double>& pitches_m, do
   std::optional<StructuralAxis> best;
   const int most_cm = static_cast<int>(100 * std::min(longest + 0.5, 12.0));
   for (int period_cm = 100; period_cm <= most_cm; ++period_cm) {
-    const Explained first = explain(pitches_m, 0.01 * period_cm, resolution_m);
-    if (!std::isfinite(first.length)) continue;
-    const Explained refined = explain(pitches_m, first.refined, resolution_m);
-    if (!std::isfinite(refined.length)) continue;
-    // Longer ones later: of equally good ones the longest is kept.
-    if (best && refined.length > best->code_length + 1e-6) continue;
-    best = StructuralAxis{first.refined, refined.sd, refined.sd / refined.multiples, refined.length};
+    const double period = 0.01 * period_cm;
+    // Rooms that an outer wall cuts, or that take what is left, hide a sharp axis from a wide first look.
+    for (const double sd : {std::max(resolution_m, 0.02 * period), resolution_m}) {
+      const Explained first = explain(pitches_m, period, sd, resolution_m);
+      if (!std::isfinite(first.length)) continue;
+      const Explained refined = explain(pitches_m, first.refined, first.sd, resolution_m);
+      if (!std::isfinite(refined.length)) continue;
+      // Longer ones later: of equally good ones the longest is kept.
+      if (best && refined.length > best->code_length + 1e-6) continue;
+      best = StructuralAxis{first.refined, refined.sd, refined.sd / refined.multiples, refined.length};
+    }
   }
   if (!best) return std::nullopt;
   const double free = code_length(pitches_m, group_lengths(pitches_m, resolution_m), resolution_m);
