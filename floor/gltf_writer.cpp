@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -108,7 +109,8 @@ int GltfWriter::mesh(const std::string& name, const std::vector<std::pair<Materi
   for (const auto& [colour, part] : parts) {
     if (part->triangles.empty()) continue;
     const std::size_t first = state_->positions.size(), first_index = state_->indices.size();
-    Vec3 low = Vec3::Constant(1e300), high = -low;
+    // In floats, as they are stored: GCC 12 at -O3 leaves out a rounding to float and back.
+    Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::max()), high = -low;
     // Flat shading: a corner is shared by triangles of one plane only.
     std::map<std::tuple<int, float, float, float>, std::uint32_t> corners;
     for (const Triangle& t : part->triangles) {
@@ -127,9 +129,9 @@ int GltfWriter::mesh(const std::string& name, const std::vector<std::pair<Materi
           const Float3 position = gltf_axes(part->points[p] + shift);
           state_->positions.push_back(position);
           state_->normals.push_back(n);
-          const Vec3 rounded(position[0], position[1], position[2]);
-          low = low.cwiseMin(rounded);
-          high = high.cwiseMax(rounded);
+          const Eigen::Array3f stored(position[0], position[1], position[2]);
+          low = low.min(stored);
+          high = high.max(stored);
         }
         state_->indices.push_back(entry->second);
       }
