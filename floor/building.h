@@ -7,8 +7,8 @@
 namespace gramap {
 
 /// The truth's rooms with their openings and furniture, in the truth's order. Heights become heights above
-/// the room's floor. Throws InputError when there is no room, or an
-/// opening or a piece of furniture that no scan could show: of no room, or of no height.
+/// the room's floor. Throws InputError when there is no room, or an opening or a piece of
+/// furniture that no scan could show: of no room, or of no height.
 Building building_of(const FloorTruth& truth);
 
 }  // namespace gramap

@@ -48,15 +48,6 @@ std::vector<bool> choose(std::size_t total, std::size_t count, std::mt19937_64& 
   return chosen;
 }
 
-SpaceProblem bare_problem(const KnownRow& row) {
-  SpaceProblem problem;
-  problem.id = row.space;
-  problem.length_m = row.length_m;
-  problem.hallway = row.hallway;
-  for (const KnownRoom& room : row.rooms) problem.depth_m = std::max(problem.depth_m, room.depth_m);
-  return problem;
-}
-
 void add_doors(const KnownRow& row, const std::vector<Interval>& rooms, std::mt19937_64& generator,
                SpaceProblem& problem) {
   constexpr double sigma_m = 0.05;

@@ -60,6 +60,8 @@ bool ExpectedUses::add(const SpaceProblem& problem, double grid_m) {
   const double total = log_total(lattice, before);
   if (!std::isfinite(total)) return false;
   const NodeTable behind = backward(lattice, before);
+  std::vector<bool> own_width;  // by element
+  for (const Element& element : compiled.row.elements) own_width.push_back(has_own_width(of_, element));
   Edges edges(lattice);
   for (int cell = 0; cell < grid.cells; ++cell) {
     const double scale = before.log_scale[static_cast<std::size_t>(cell)] - total;
@@ -67,7 +69,6 @@ bool ExpectedUses::add(const SpaceProblem& problem, double grid_m) {
       if (before.value[node] <= 0) return;
       for (const Arc& arc : lattice.arcs(state, cell)) {
         const Element& element = compiled.row.elements[static_cast<std::size_t>(arc.element)];
-        const bool own_width = has_own_width(of_, element);
         const double departing = before.value[node] * arc.probability;
         double probability = 0;
         for (const Move& move : edges.moves(cell, arc.element, e)) {
@@ -81,7 +82,9 @@ bool ExpectedUses::add(const SpaceProblem& problem, double grid_m) {
             of_move += departing * weight * std::exp(behind.log_scale[reached] + scale);
           }
           probability += of_move;
-          if (!own_width || move.matched < 0 || move.target_evidence % 2 == 1) continue;
+          if (!own_width[static_cast<std::size_t>(arc.element)] || move.matched < 0 ||
+              move.target_evidence % 2 == 1)
+            continue;
           const PreparedEvidence& seen = evidence.rooms()[static_cast<std::size_t>(move.matched)];
           const auto type = static_cast<std::size_t>(element.first_type());
           add_width(of_.rooms[type].width, seen.width_m, seen.width_sd_m, of_move, widths[type]);

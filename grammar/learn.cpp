@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/error.h"
+#include "grammar/design_effect.h"
 #include "grammar/keywords.h"
 #include "grammar/learn_filling.h"
 #include "grammar/learn_habits.h"
@@ -394,13 +395,6 @@ std::pair<int, long> kind_of(const LearnedRules& rules, const LearnedRule& rule)
   return {width.type, width.axes > 0 ? width.axes : std::lround(-100 * width.mean_m)};
 }
 
-/// Rooms of one row have more in common than any rule says: of how many rooms drawn one by one they tell as
-/// much as (Kish's design effect).
-double effective_count(double count, double rows) {
-  constexpr double likeness = 0.5;  // of two steps along the same row, 0 to 1
-  return count / (1 + likeness * (count / rows - 1));
-}
-
 /// For every kind of rule whose followers differ from all rules' followers: a block of its own, mixed with
 /// one count of the overall shares.
 void learn_after(LearnedRules& rules, const std::vector<std::vector<int>>& derivations) {
@@ -431,7 +425,7 @@ void learn_after(LearnedRules& rules, const std::vector<std::vector<int>>& deriv
     if (found == pooled.end()) continue;
     const auto& [counts, n, rows] = found->second;
     if (n < 2 || log_evidence_of_own(counts, overall, 1.0) <= 0) continue;
-    const double effective = effective_count(n, static_cast<double>(rows.size()));
+    const double effective = n / design_effect(n, static_cast<double>(rows.size()));
     for (std::size_t j = 0; j < counts.size(); ++j)
       if (counts[j] > 0)
         rule.after.emplace_back(static_cast<int>(j),

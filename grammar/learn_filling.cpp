@@ -5,9 +5,12 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "grammar/design_effect.h"
 #include "grammar/expected_uses.h"
 #include "grammar/language.h"
+#include "grammar/row_evidence.h"
 
 namespace gramap {
 namespace {
@@ -15,7 +18,6 @@ namespace {
 constexpr double kGrid_m = 0.05;
 constexpr int kRounds = 6;
 constexpr double kPrior = 10;            // uses that the untilted probabilities are worth
-constexpr double kLikeness = 0.5;        // of uses on the same floor, 0 to 1
 constexpr std::size_t kMostSpaces = 40;  // of different lengths; more tell no more
 
 /// The data's spaces by length, alike ones once: what derivations have to fill.
@@ -28,12 +30,9 @@ std::vector<Space> spaces_of(const LearnData& data) {
   std::map<std::pair<long, long>, Space> by_size;
   for (const KnownRow& row : data.rows) {
     if (!row.whole) continue;
-    double depth_m = 0;
-    for (const KnownRoom& room : row.rooms) depth_m = std::max(depth_m, room.depth_m);
-    Space& space = by_size[{std::lround(row.length_m / kGrid_m), std::lround(depth_m / kGrid_m)}];
-    space.problem.length_m = row.length_m;
-    space.problem.depth_m = depth_m;
-    space.problem.hallway = row.hallway;
+    SpaceProblem problem = bare_problem(row);
+    Space& space = by_size[{std::lround(problem.length_m / kGrid_m), std::lround(problem.depth_m / kGrid_m)}];
+    space.problem = std::move(problem);
     space.count += 1;
   }
   std::vector<Space> spaces;
@@ -109,9 +108,7 @@ void match_filling(LearnedRules& rules, const std::vector<std::vector<int>>& use
     std::vector<double> factors(rules.rules.size(), 1);
     for (std::size_t r = 0; r < factors.size(); ++r) {
       if (rules.rules[r].any_type >= 0) continue;
-      // A floor's rooms have more in common than any rule says (Kish's design effect).
-      const double design =
-          used[r] > 0 ? 1 + kLikeness * (used[r] / static_cast<double>(floors[r].size()) - 1) : 1;
+      const double design = used[r] > 0 ? design_effect(used[r], static_cast<double>(floors[r].size())) : 1;
       // Newton's step, as if uses were Poisson's.
       const double slope = (used[r] - expected[r]) / design - kPrior * logarithms[r];
       const double step = std::clamp(slope / (expected[r] / design + kPrior), -1.0, 1.0);

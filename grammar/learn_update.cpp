@@ -16,16 +16,6 @@
 namespace gramap {
 namespace {
 
-SpaceProblem problem_of(const KnownRow& row, double wall_m, double sigma_m) {
-  SpaceProblem problem;
-  problem.id = row.space;
-  problem.length_m = row.length_m;
-  problem.hallway = row.hallway;
-  for (const KnownRoom& room : row.rooms) problem.depth_m = std::max(problem.depth_m, room.depth_m);
-  problem.rooms = row_evidence(row, wall_m, sigma_m, sigma_m, 0.9);
-  return problem;
-}
-
 struct Replacement {
   Span span;
   std::string text;
@@ -104,7 +94,8 @@ UpdatedRules update_rules(const std::string& text, const std::string& name, cons
   std::size_t made = 0;
   for (const KnownRow& row : data.rows) {
     if (!row.whole || row.rooms.empty()) continue;
-    const SpaceProblem problem = problem_of(row, data.inner_wall_m, options.width_sigma_m);
+    SpaceProblem problem = bare_problem(row);
+    problem.rooms = row_evidence(row, data.inner_wall_m, options.width_sigma_m, options.width_sigma_m, 0.9);
     if (expected.add(problem, options.grid_m))
       ++made;
     else
@@ -126,8 +117,8 @@ UpdatedRules update_rules(const std::string& text, const std::string& name, cons
   for (std::size_t r = 0; r < rules.rules.size(); ++r) {
     const Rule& rule = rules.rules[r];
     const auto found = written.find(rule.name);
-    const bool plain = found != written.end() && found->second->probability &&
-                       found->second->probability->kind == syntax::Expr::Kind::number;
+    const bool plain =
+        found != written.end() && found->second->probability && is_number(*found->second->probability);
     if (!plain) {
       if (uses[r] > 0.5) updated.left_alone.push_back(rule.name);
       continue;

@@ -1,6 +1,17 @@
 #include "grammar/row_evidence.h"
 
+#include <algorithm>
+
 namespace gramap {
+
+SpaceProblem bare_problem(const KnownRow& row) {
+  SpaceProblem problem;
+  problem.id = row.space;
+  problem.length_m = row.length_m;
+  problem.hallway = row.hallway;
+  for (const KnownRoom& room : row.rooms) problem.depth_m = std::max(problem.depth_m, room.depth_m);
+  return problem;
+}
 
 std::vector<RoomEvidence> row_evidence(const KnownRow& row, double wall_m, double width_sigma_m,
                                        double place_sigma_m, double type_confidence) {

@@ -17,7 +17,7 @@ namespace {
 
 /// Of a difference, in standard errors.
 double z(const Tally& a, const Tally& b) {
-  const double error = std::hypot(a.standard_error(), b.standard_error());
+  const double error = standard_error(a, b);
   return error > 0 ? (b.mean() - a.mean()) / error : 0;
 }
 

@@ -30,6 +30,11 @@ struct Tally {
   }
 };
 
+/// Of the difference of two means.
+inline double standard_error(const Tally& a, const Tally& b) {
+  return std::hypot(a.standard_error(), b.standard_error());
+}
+
 /// Rooms of a type at the hallway: how many in a row, how wide; as derived from the file and as learned.
 struct TypeConsistency {
   std::string type;

@@ -24,10 +24,6 @@ int floors_to_derive() {
   return asked ? std::max(2, std::atoi(asked)) : 30;
 }
 
-double standard_error(const Tally& a, const Tally& b) {
-  return std::hypot(a.standard_error(), b.standard_error());
-}
-
 }  // namespace
 
 TEST_CASE("rules learned from derived floors promise what the rules promised that the floors came from") {
