@@ -28,7 +28,8 @@ Vec2 way_off_the_walls(const OrientedBox& box, const Polygon& room) {
     double nearest = 1e300;
     Vec2 foot = corner;
     for (std::size_t i = 0; i < room.size(); ++i) {
-      const Vec2 a = room[i], along = room[(i + 1) % room.size()] - a;
+      const Vec2& a = room[i];
+      const Vec2 along = room[(i + 1) % room.size()] - a;
       const double t = std::clamp((corner - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
       const Vec2 at = a + along * t;
       if ((corner - at).norm() >= nearest) continue;

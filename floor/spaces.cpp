@@ -78,7 +78,9 @@ class Deriver {
     for (int h = 0; h < static_cast<int>(floor_.hallways.size()); ++h) {
       const Polygon ring = simplified(floor_.hallways[h].outline, 1e-3);
       for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], along = (b - a).normalized();
+        const Vec2& a = ring[i];
+        const Vec2& b = ring[(i + 1) % ring.size()];
+        const Vec2 along = (b - a).normalized();
         const Vec2 out = Vec2(along.y(), -along.x()) * wall_m_;
         if ((b - a).norm() >= 0.5) sides.push_back({h, b + out, a + out});
       }
