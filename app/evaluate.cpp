@@ -34,24 +34,33 @@ struct EvaluateArguments {
   CrossOptions crossing;
 };
 
-/// The floors of a folder: its floor folders and GeoJSON files, by name.
-KnownFloors floors_in(const std::string& folder, double wall_m) {
+/// The floors to leave out in turn, by name: a folder's floor folders and GeoJSON files, or the levels of an
+/// indoor plan.
+KnownFloors floors_in(const std::string& given, double wall_m) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored))
-    throw InputError({folder}, "this is no folder", "--cross takes a folder that holds several floors");
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::filesystem::path& path = entry.path();
-    const bool floor_folder = std::filesystem::exists(path / "truth.geojson", ignored) ||
-                              std::filesystem::exists(path / "unit.geojson", ignored);
-    if (floor_folder || path.extension() == ".geojson") paths.push_back(path);
+  if (std::filesystem::is_regular_file(given, ignored) || is_indoor_plan(given)) {
+    paths.emplace_back(given);
+  } else if (!std::filesystem::is_directory(given, ignored)) {
+    throw InputError({given}, "this is no folder",
+                     "--cross takes a folder that holds several floors, or an indoor plan of several levels");
+  } else {
+    for (const auto& entry : std::filesystem::directory_iterator(given)) {
+      const std::filesystem::path& path = entry.path();
+      const bool floor_folder = std::filesystem::exists(path / "truth.geojson", ignored) ||
+                                std::filesystem::exists(path / "unit.geojson", ignored);
+      if (floor_folder || path.extension() == ".geojson") paths.push_back(path);
+    }
+    std::sort(paths.begin(), paths.end());
   }
-  std::sort(paths.begin(), paths.end());
   KnownFloors known;
   for (const auto& path : paths) read_known_floors(path.string(), wall_m, known);
   if (known.floors.empty())
-    throw InputError({folder}, "there is no floor in this folder",
+    throw InputError({given}, "there is no floor in this folder",
                      "put floor folders with truth.geojson, or GeoJSON files, into it");
+  if (known.floors.size() < 2)
+    throw InputError({given}, "there is only one floor, and none to learn from when it is left out",
+                     "--cross takes several floors, or an indoor plan of several levels");
   return known;
 }
 
@@ -63,6 +72,7 @@ RuleSet make_rules(const LearnedRules& learned) {
 
 int cross(const EvaluateArguments& arguments) {
   const KnownFloors known = floors_in(arguments.cross, arguments.wall_m);
+  const bool set_aside = report_on_reading(known);
   const LearnData data = learn_data(known.floors, known.truths);
   std::printf(
       "leave one floor out: %zu floors, %d draws, scanned widths %.0f %% and positions %.2f m off%s; %s\n",
@@ -88,7 +98,7 @@ int cross(const EvaluateArguments& arguments) {
   for (const HeldOutLikelihood& item :
        held_out_likelihoods(data, arguments.learning, make_rules, others, arguments.crossing.grid_m))
     std::printf("  %-34s %-28s %9.3f\n", item.floor.c_str(), item.rules.c_str(), item.nats_per_room);
-  return kDone;
+  return set_aside ? kSetAside : kDone;
 }
 
 int judge(const EvaluateArguments& arguments) {
@@ -99,6 +109,7 @@ int judge(const EvaluateArguments& arguments) {
   const std::filesystem::path truth_path = arguments.truth;
   if (is_indoor_plan(truth_path) || std::filesystem::exists(truth_path / "floor.geojson", ignored))
     floor = read_floor(truth_path);
+  const bool set_aside = report_on_reading(floor);
   const Evaluation evaluation = evaluate(model.floor, read_truth(truth_path, floor.origin), floor);
   if (!arguments.json.empty()) write_file(arguments.json, to_json(evaluation));
   if (!arguments.html.empty())
@@ -106,7 +117,7 @@ int judge(const EvaluateArguments& arguments) {
                to_html(evaluation, std::filesystem::path(arguments.model).filename().string() + " against " +
                                        (floor.name.empty() ? arguments.truth : floor.name)));
   if (arguments.json != "-" && arguments.html != "-") std::fputs(to_text(evaluation).c_str(), stdout);
-  return kDone;
+  return set_aside ? kSetAside : kDone;
 }
 
 }  // namespace
@@ -123,9 +134,10 @@ Verb declare_evaluate(CLI::App& gramap) {
   verb->add_option("--json", arguments->json, "Write the evaluation as JSON; - is standard output");
   verb->add_option("--html", arguments->html,
                    "Write a page with the plan coloured by error; - is standard output");
-  CLI::Option* cross_option = verb->add_option(
-      "--cross", arguments->cross,
-      "Instead of judging a model: leave each floor of this folder out in turn, learn on the others, fit it");
+  CLI::Option* cross_option = verb->add_option("--cross", arguments->cross,
+                                               "Instead of judging a model: leave each floor of this folder, "
+                                               "or each level of this indoor plan, out in "
+                                               "turn, learn on the others, fit it");
   cross_option->excludes(model);
   verb->add_option("--rules", arguments->rules,
                    "With --cross: rule files whose likelihood is printed beside");

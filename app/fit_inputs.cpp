@@ -131,6 +131,8 @@ FitInputs read_inputs(const FitInputOptions& options) {
     inputs.observations = std::move(perceived.rooms);
     inputs.set_aside = std::move(perceived.set_aside);
   }
+  inputs.set_aside.insert(inputs.set_aside.begin(), inputs.floor.set_aside.begin(),
+                          inputs.floor.set_aside.end());
   inputs.problems =
       space_problems(inputs.floor, inputs.rules, inputs.observations, options.fit, inputs.set_aside);
   if (options.drawn_rooms) {

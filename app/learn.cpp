@@ -24,7 +24,7 @@ struct LearnArguments {
 };
 
 /// Refines a rule file that is there.
-int update(const LearnArguments& arguments, const LearnData& data) {
+int update(const LearnArguments& arguments, const LearnData& data, bool set_aside) {
   const UpdatedRules updated =
       update_rules(read_file(arguments.update), arguments.update, data, arguments.updating);
   write_file(arguments.output, updated.text);
@@ -36,21 +36,22 @@ int update(const LearnArguments& arguments, const LearnData& data) {
                  rule.c_str());
   std::fprintf(stderr, "gramap: wrote %d probabilities and %d numbers of widths anew\n",
                updated.probabilities, updated.widths);
-  return updated.unfilled.empty() ? kDone : kSetAside;
+  return updated.unfilled.empty() && !set_aside ? kDone : kSetAside;
 }
 
 int learn(const LearnArguments& arguments) {
   KnownFloors known;
   for (const std::string& path : arguments.floors) read_known_floors(path, arguments.wall_m, known);
+  const bool set_aside = report_on_reading(known);
   const LearnData data = learn_data(known.floors, known.truths, known.unseen);
-  if (!arguments.update.empty()) return update(arguments, data);
+  if (!arguments.update.empty()) return update(arguments, data, set_aside);
   const LearnedRules rules = learn_rules(data, arguments.options);
   write_file(arguments.output, to_text(rules));
   std::size_t rooms = 0;
   for (const KnownRow& row : rules.data.rows) rooms += row.rooms.size();
   std::fprintf(stderr, "gramap: learned %zu rules for %zu room types from %zu rooms in %zu spaces\n",
                rules.rules.size(), rules.types.size(), rooms, rules.data.rows.size());
-  return kDone;
+  return set_aside ? kSetAside : kDone;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/read_known_floors.h"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "floor/fitted_geojson.h"
@@ -52,6 +53,22 @@ void read_known_floors(const std::string& path, double wall_m, KnownFloors& know
   if (known.truths.back().rooms.empty())
     throw InputError({path}, "the floor has no rooms to learn from",
                      "give a folder with truth.geojson, or a file with features of the kind 'room'");
+}
+
+bool report_on_reading(const FloorGroundTruth& floor) {
+  const char* const name = floor.name.c_str();
+  for (const std::string& remark : floor.remarks)
+    std::fprintf(stderr, "gramap: note: %s: %s\n", name, remark.c_str());
+  for (const SetAsideInput& aside : floor.set_aside)
+    std::fprintf(stderr, "gramap: warning: %s: %s was set aside: %s\n", name, aside.what.c_str(),
+                 aside.reason.c_str());
+  return !floor.set_aside.empty();
+}
+
+bool report_on_reading(const KnownFloors& known) {
+  bool set_aside = false;
+  for (const FloorGroundTruth& floor : known.floors) set_aside = report_on_reading(floor) || set_aside;
+  return set_aside;
 }
 
 }  // namespace gramap

@@ -20,4 +20,9 @@ struct KnownFloors {
 /// draws as lines. Appends to `known`. Throws InputError.
 void read_known_floors(const std::string& path, double wall_m, KnownFloors& known);
 
+/// Says on standard error what the readers put right and left out of a floor; true when they left anything
+/// out.
+bool report_on_reading(const FloorGroundTruth& floor);
+bool report_on_reading(const KnownFloors& known);
+
 }  // namespace gramap

@@ -75,12 +75,6 @@ struct FittedSpace {
   std::vector<Alternative> alternatives;
 };
 
-/// Something of the input that was not used, and why.
-struct SetAsideInput {
-  std::string what;
-  std::string reason;
-};
-
 struct FittedFloor {
   FloorGroundTruth floor;  ///< what was given
   double inner_wall_m = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "floor/geojson_plan.h"
 #include "floor/ring_check.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
@@ -20,6 +21,9 @@ using nlohmann::json;
 }
 
 json parse(const std::string& text, const std::string& path) {
+  if (text.starts_with("PK\x03\x04"))
+    fail_file(path, "this is a zip archive",
+              "unpack it into a folder, and give the folder: an IMDF archive's holds unit.geojson");
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
@@ -46,133 +50,88 @@ void flatten(const json& object, const std::string& prefix, GeoProperties& into,
   }
 }
 
-Vec2 read_position(const json& value, const GeoFile& file, const GeoFeature& feature) {
+/// What is wrong with a geometry, and what to do.
+struct GeometryFault {
+  std::string message, advice;
+};
+
+Vec2 read_position(const json& value) {
   if (!value.is_array() || value.size() < 2 || !value[0].is_number() || !value[1].is_number())
-    fail(file, feature, "a position is not a pair of numbers", "write each position as [x, y]");
+    throw GeometryFault{"a position is not a pair of numbers", "write each position as [x, y]"};
   const Vec2 position(value[0].get<double>(), value[1].get<double>());
   if (!position.allFinite())
-    fail(file, feature, "a coordinate is not a finite number",
-         "write each position as [x, y] in plain numbers");
+    throw GeometryFault{"a coordinate is not a finite number",
+                        "write each position as [x, y] in plain numbers"};
   return position;
 }
 
-Polygon read_positions(const json& value, const GeoFile& file, const GeoFeature& feature) {
+Polygon read_positions(const json& value) {
   if (!value.is_array())
-    fail(file, feature, "its coordinates are not a list of positions",
-         "write a ring or a line as [[x, y], [x, y], …]");
+    throw GeometryFault{"its coordinates are not a list of positions",
+                        "write a ring or a line as [[x, y], [x, y], …]"};
   Polygon points;
-  for (const json& position : value) points.push_back(read_position(position, file, feature));
+  for (const json& position : value) points.push_back(read_position(position));
   return points;
 }
 
-std::vector<Polygon> read_rings(const json& value, const GeoFile& file, const GeoFeature& feature) {
+std::vector<Polygon> read_rings(const json& value) {
   if (!value.is_array() || value.empty())
-    fail(file, feature, "its coordinates are not a list of rings",
-         "a Polygon's coordinates are [[[x, y], …]]");
+    throw GeometryFault{"its coordinates are not a list of rings",
+                        "a Polygon's coordinates are [[[x, y], …]]"};
   std::vector<Polygon> rings;
-  for (const json& ring : value) rings.push_back(read_positions(ring, file, feature));
+  for (const json& ring : value) rings.push_back(read_positions(ring));
   return rings;
 }
 
-void read_geometry(const json& value, const GeoFile& file, GeoFeature& feature) {
+void read_geometry(const json& value, GeoFeature& feature) {
   if (value.is_null()) return;
   if (!value.is_object() || !value.contains("type") || !value["type"].is_string())
-    fail(file, feature, "its geometry has no type", "see RFC 7946, section 3.1");
+    throw GeometryFault{"its geometry has no type", "see RFC 7946, section 3.1"};
   feature.geometry = value["type"].get<std::string>();
   if (feature.geometry == "GeometryCollection") return;
   if (!value.contains("coordinates") || !value["coordinates"].is_array())
-    fail(file, feature, "its geometry has no coordinates", "see RFC 7946, section 3.1");
+    throw GeometryFault{"its geometry has no coordinates", "see RFC 7946, section 3.1"};
   const json& coordinates = value["coordinates"];
   const bool many = feature.geometry.starts_with("Multi");
   const std::string type = many ? feature.geometry.substr(5) : feature.geometry;
   const json one = json::array({coordinates});
   for (const json& part : many ? coordinates : one) {
     if (type == "Polygon")
-      feature.parts.push_back(read_rings(part, file, feature));
+      feature.parts.push_back(read_rings(part));
     else if (type == "LineString")
-      feature.parts.push_back({read_positions(part, file, feature)});
+      feature.parts.push_back({read_positions(part)});
     else if (type == "Point")
-      feature.parts.push_back({{read_position(part, file, feature)}});
+      feature.parts.push_back({{read_position(part)}});
     else
-      fail(file, feature, "its geometry type '" + feature.geometry + "' is unknown",
-           "use Polygon, LineString or Point");
+      throw GeometryFault{"its geometry type '" + feature.geometry + "' is unknown",
+                          "use Polygon, LineString or Point"};
   }
 }
 
-struct Extent {
-  Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
-  bool empty() const { return least.x() > most.x(); }
-};
-
-Extent extent_of(const GeoFile& file) {
-  Extent extent;
-  for (const GeoFeature& feature : file.features)
-    for (const auto& part : feature.parts)
-      for (const Polygon& ring : part)
-        for (const Vec2& point : ring)
-          extent.least = extent.least.cwiseMin(point), extent.most = extent.most.cwiseMax(point);
-  return extent;
-}
-
-constexpr double kFarthest_m = 1e8;  ///< from the origin: no map projection of the Earth goes farther
-constexpr double kWidest_m = 5000;   ///< a floor of a building
-
-void check_metres(const GeoFile& file, const Extent& extent) {
-  if (extent.empty()) return;
-  const Vec2 size = extent.most - extent.least,
-             far = extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs());
-  const bool in_range = far.x() <= 180 && far.y() <= 90;
-  // A single pin has no size and may stand anywhere.
-  if (in_range && size.maxCoeff() > 0 && size.maxCoeff() < 0.5)
-    fail_file(file.path,
-              "the file says metres, but all of it lies within half a metre: these look like degrees",
-              "leave \"coordinate_units\" out when the coordinates are WGS84 longitude and latitude");
-  if (far.maxCoeff() > kFarthest_m)
-    fail_file(file.path, "a coordinate is more than 100,000 km from the origin, farther than any map reaches",
-              "give coordinates in metres about an origin near the building, or WGS84 without "
-              "\"coordinate_units\"");
-  if (size.maxCoeff() > kWidest_m)
-    fail_file(file.path, "the floor is more than 5 km wide: these do not look like metres",
-              "give coordinates in metres, or WGS84 without \"coordinate_units\"");
-}
-
-void check_degrees(const GeoFile& file, const Extent& extent) {
-  if (extent.empty()) return;
-  const Vec2 far = extent.least.cwiseAbs().cwiseMax(extent.most.cwiseAbs());
-  if (far.x() > 180 || far.y() > 90 || (extent.most - extent.least).maxCoeff() > 0.2)
-    fail_file(
-        file.path,
-        "these do not look like longitude and latitude, which a file without \"coordinate_units\" holds",
-        "add \"coordinate_units\": \"m\" to the collection when the coordinates are metres");
-}
-
-void project(GeoFile& file, const json& root, const std::optional<GeoOrigin>& about) {
-  const std::string units = text_of(file.members, "coordinate_units");
-  if (root.contains("origin")) {
-    const json& origin = root["origin"];
-    if (!origin.is_array() || origin.size() != 2 || !origin[0].is_number() || !origin[1].is_number() ||
-        std::abs(origin[0].get<double>()) > 180 || std::abs(origin[1].get<double>()) > 89)
-      fail_file(file.path, "\"origin\" is not [longitude, latitude] in degrees",
-                "write \"origin\": [13.7, 51.0]");
-    file.origin = GeoOrigin{origin[0].get<double>(), origin[1].get<double>()};
+void read_feature(const json& value, const GeoFile& file, GeoFeature& feature, GeoFaults faults) {
+  try {
+    if (!value.is_object()) throw GeometryFault{"it is not an object", "see RFC 7946, section 3.2"};
+    // IMDF keeps type and id beside the properties.
+    for (const char* key : {"id", "feature_type"})
+      if (value.contains(key)) flatten(json{{key, value[key]}}, "", feature.properties);
+    if (value.contains("properties") && value["properties"].is_object())
+      flatten(value["properties"], "", feature.properties);
+    if (value.contains("geometry")) read_geometry(value["geometry"], feature);
+  } catch (const GeometryFault& fault) {
+    if (faults == GeoFaults::refuse) fail(file, feature, fault.message, fault.advice);
+    feature.parts.clear();
+    feature.fault = fault.message;
   }
-  const Extent extent = extent_of(file);
-  if (units == "m") {
-    check_metres(file, extent);
-    return;
-  }
-  if (!units.empty())
-    fail_file(file.path, "the coordinate_units '" + units + "' are not known",
-              "use \"m\" for metres, or leave it out for WGS84 longitude and latitude");
-  check_degrees(file, extent);
-  if (extent.empty()) return;
-  const Vec2 centre = (extent.least + extent.most) / 2;
-  if (about) file.origin = about;
-  if (!file.origin) file.origin = GeoOrigin{centre.x(), centre.y()};
-  for (GeoFeature& feature : file.features)
-    for (auto& part : feature.parts)
-      for (Polygon& ring : part)
-        for (Vec2& point : ring) point = plan_from_wgs84(*file.origin, point.x(), point.y());
+}
+
+void read_origin(const json& root, GeoFile& file) {
+  if (!root.contains("origin")) return;
+  const json& origin = root["origin"];
+  if (!origin.is_array() || origin.size() != 2 || !origin[0].is_number() || !origin[1].is_number() ||
+      std::abs(origin[0].get<double>()) > 180 || std::abs(origin[1].get<double>()) > 89)
+    fail_file(file.path, "\"origin\" is not [longitude, latitude] in degrees",
+              "write \"origin\": [13.7, 51.0]");
+  file.origin = GeoOrigin{origin[0].get<double>(), origin[1].get<double>()};
 }
 
 /// The number that a property holds, as a number or as text; nothing when it holds something else.
@@ -187,28 +146,21 @@ std::optional<double> as_number(const std::variant<std::string, double, bool>& v
   return number;
 }
 
-bool on_one_line(const Polygon& ring) {
-  Vec2 far = ring.front();
-  for (const Vec2& point : ring)
-    if ((point - ring.front()).norm() > (far - ring.front()).norm()) far = point;
-  return std::all_of(ring.begin(), ring.end(),
-                     [&](const Vec2& point) { return distance_to_segment(point, ring.front(), far) < 1e-6; });
-}
-
 /// A simple ring without repeated points, or InputError; `which` is "its polygon" or one of its holes.
 Polygon simple_ring(const GeoFile& file, const GeoFeature& feature, const Polygon& given,
                     const std::string& which) {
   Polygon ring = without_repeats(given);
-  if (ring.size() < 3 || on_one_line(ring))
-    fail(file, feature, which + " encloses no area", "give at least three corners that are not on one line");
-  if (const auto fault = ring_fault(ring))
-    fail(file, feature, which + " " + *fault, "draw it so that its edges meet only at their common corners");
+  if (const auto fault = area_fault(ring))
+    fail(file, feature, which + " " + *fault,
+         *fault == "encloses no area" ? "give at least three corners that are not on one line"
+                                      : "draw it so that its edges meet only at their common corners");
   return ring;
 }
 
 }  // namespace
 
-GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about) {
+GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about,
+                     GeoFaults faults) {
   GeoFile file;
   file.path = path.string();
   const json root = parse(read_file(path), file.path);
@@ -222,16 +174,11 @@ GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoO
   for (const json& value : root["features"]) {
     GeoFeature feature;
     feature.index = static_cast<int>(file.features.size());
-    if (!value.is_object()) fail(file, feature, "it is not an object", "see RFC 7946, section 3.2");
-    // IMDF keeps type and id beside the properties.
-    for (const char* key : {"id", "feature_type"})
-      if (value.contains(key)) flatten(json{{key, value[key]}}, "", feature.properties);
-    if (value.contains("properties") && value["properties"].is_object())
-      flatten(value["properties"], "", feature.properties);
-    if (value.contains("geometry")) read_geometry(value["geometry"], file, feature);
+    read_feature(value, file, feature, faults);
     file.features.push_back(std::move(feature));
   }
-  project(file, root, about);
+  read_origin(root, file);
+  place_on_plan(file, about, faults);
   return file;
 }
 

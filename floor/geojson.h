@@ -26,6 +26,7 @@ struct GeoFeature {
   /// Polygons or lines or points; a polygon's rings with the outer one first, as they stand in the file but
   /// for the closing point. A line or a point is the only ring of its part.
   std::vector<std::vector<Polygon>> parts;
+  std::string fault;  ///< what is wrong with its geometry, which is left out then; see GeoFaults::keep
 };
 
 struct GeoFile {
@@ -36,10 +37,18 @@ struct GeoFile {
   std::vector<GeoFeature> features;
 };
 
+/// What to do about a feature whose geometry cannot be read, or that lies far from all others.
+enum class GeoFaults {
+  refuse,  ///< throw InputError: the files that are drawn for gramap
+  keep,    ///< note it in the feature: plans that others have drawn, where one room must not cost the floor
+};
+
 /// Reads a FeatureCollection. With `coordinate_units` "m" the coordinates are local metres; without it they
 /// are WGS84 longitude and latitude and are projected about `about`, about the file's own `origin` member, or
-/// about the centre of all its coordinates. Throws InputError.
-GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about = std::nullopt);
+/// about the centre of all its coordinates; a floor may lie across the 180th meridian, not at a pole. Throws
+/// InputError.
+GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about = std::nullopt,
+                     GeoFaults faults = GeoFaults::refuse);
 
 /// Property access; numbers given as text ("0.9") count as numbers and numbers serve as names.
 std::string text_of(const GeoProperties& properties, const std::string& key);

@@ -73,6 +73,12 @@ struct FloorTruth {
   std::vector<TrueFurniture> furniture;
 };
 
+/// Something of the input that was not used, and why.
+struct SetAsideInput {
+  std::string what;
+  std::string reason;
+};
+
 struct FloorGroundTruth {
   std::string name;
   double elevation_m = 0;
@@ -85,8 +91,9 @@ struct FloorGroundTruth {
   std::vector<FixedRoom> fixed;
   std::vector<Space> spaces;
   std::vector<Pin> pins;
-  std::optional<GeoOrigin> origin;   ///< where plan (0, 0) is, when the file was WGS84 or says so
-  std::vector<std::string> remarks;  ///< what the reader put right, for people: one sentence each
+  std::optional<GeoOrigin> origin;       ///< where plan (0, 0) is, when the file was WGS84 or says so
+  std::vector<std::string> remarks;      ///< what the reader put right, for people: one sentence each
+  std::vector<SetAsideInput> set_aside;  ///< features of somebody's plan that could not be used
 };
 
 /// Reads a floor file, or `floor.geojson` in a floor folder; the truth kinds are skipped. Rings are made

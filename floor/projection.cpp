@@ -20,13 +20,16 @@ Vec2 metres_per_degree(double latitude_deg) {
 }  // namespace
 
 Vec2 plan_from_wgs84(const GeoOrigin& origin, double longitude_deg, double latitude_deg) {
-  return Vec2(longitude_deg - origin.longitude_deg, latitude_deg - origin.latitude_deg)
+  // The short way round, also across the 180th meridian.
+  return Vec2(std::remainder(longitude_deg - origin.longitude_deg, 360), latitude_deg - origin.latitude_deg)
       .cwiseProduct(metres_per_degree(origin.latitude_deg));
 }
 
 Vec2 wgs84_from_plan(const GeoOrigin& origin, const Vec2& plan) {
-  return Vec2(origin.longitude_deg, origin.latitude_deg) +
-         plan.cwiseQuotient(metres_per_degree(origin.latitude_deg));
+  Vec2 degrees = Vec2(origin.longitude_deg, origin.latitude_deg) +
+                 plan.cwiseQuotient(metres_per_degree(origin.latitude_deg));
+  if (std::abs(degrees.x()) > 180) degrees.x() = std::remainder(degrees.x(), 360);
+  return degrees;
 }
 
 }  // namespace gramap

@@ -30,6 +30,15 @@ std::optional<Vec2> meeting(const Polygon& a, const Polygon& b) {
   return std::nullopt;
 }
 
+bool on_one_line(const Polygon& ring) {
+  Vec2 far = ring.front();
+  for (const Vec2& point : ring)
+    if ((point - ring.front()).norm() > (far - ring.front()).norm()) far = point;
+  return std::all_of(ring.begin(), ring.end(), [&](const Vec2& point) {
+    return distance_to_segment(point, ring.front(), far) < kSame;
+  });
+}
+
 }  // namespace
 
 Polygon without_repeats(const Polygon& ring) {
@@ -67,6 +76,11 @@ std::optional<std::string> ring_fault(const Polygon& ring) {
     open.push_back(i);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> area_fault(const Polygon& ring) {
+  if (ring.size() < 3 || on_one_line(ring)) return "encloses no area";
+  return ring_fault(ring);
 }
 
 std::optional<std::string> holes_fault(const Polygon& outer, const std::vector<Polygon>& holes) {

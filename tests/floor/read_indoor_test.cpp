@@ -3,39 +3,33 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "floor/spaces.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "tests/floor/drawn_plan.h"
 #include "tests/floor/temporary_file.h"
 
 using namespace gramap;
 
 namespace {
 
-const GeoOrigin kOrigin{13.7, 51.0};
+const test::DrawnPlan kPlan;
 
-/// A rectangle of a plan that is turned by 0.3 rad, as WGS84 coordinates.
 std::string corner(double x, double y) {
-  const Vec2 turned(std::cos(0.3) * x - std::sin(0.3) * y, std::sin(0.3) * x + std::cos(0.3) * y);
-  const Vec2 degrees = wgs84_from_plan(kOrigin, turned);
-  char text[64];
-  std::snprintf(text, sizeof text, "[%.10f,%.10f]", degrees.x(), degrees.y());
-  return text;
+  return kPlan.position(x, y);
 }
 std::string box(double x0, double y0, double x1, double y1) {
-  return R"("geometry":{"type":"Polygon","coordinates":[[)" + corner(x0, y0) + "," + corner(x1, y0) + "," +
-         corner(x1, y1) + "," + corner(x0, y1) + "," + corner(x0, y0) + "]]}";
+  return kPlan.box(x0, y0, x1, y1);
 }
 std::string point(double x, double y) {
-  return R"("geometry":{"type":"Point","coordinates":)" + corner(x, y) + "}";
+  return kPlan.point(x, y);
 }
 std::string feature(const std::string& properties, const std::string& geometry) {
-  return R"({"type":"Feature","properties":{)" + properties + "}," + geometry + "}";
+  return test::DrawnPlan::feature(properties, geometry);
 }
 std::string collection(const std::string& features) {
-  return R"({"type":"FeatureCollection","features":[)" + features + "]}";
+  return test::DrawnPlan::collection(features);
 }
 
 /// A hallway of 12 x 2 m with three rooms above it and one below, a staircase at its end.
