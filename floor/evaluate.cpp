@@ -92,7 +92,7 @@ ErrorSummary summarise(std::vector<double> errors) {
     summary.within_10cm += (error <= 0.1 + 1e-9) / n;
   }
   summary.rms_m = std::sqrt(summary.rms_m);
-  summary.median_abs_m = errors[errors.size() / 2];
+  summary.median_abs_m = (errors[(errors.size() - 1) / 2] + errors[errors.size() / 2]) / 2;
   summary.worst_m = errors.back();
   return summary;
 }

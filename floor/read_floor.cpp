@@ -108,11 +108,24 @@ std::string nearest_hallway(const FloorGroundTruth& floor, const Vec2& from) {
   return best;
 }
 
+/// Refuses a file that holds something else altogether, before its first feature is blamed for it.
+void require_kinds(const GeoFile& file) {
+  if (file.features.empty() ||
+      std::any_of(file.features.begin(), file.features.end(),
+                  [](const GeoFeature& feature) { return feature.properties.contains("kind"); }))
+    return;
+  throw InputError({file.path},
+                   "this is no floor: no feature of it has a 'kind', an 'indoor' tag or a 'feature_type'",
+                   "floors are drawn with a \"kind\" on each feature, or are plans in OpenStreetMap's indoor "
+                   "tagging or IMDF");
+}
+
 }  // namespace
 
 FloorGroundTruth read_floor(const std::filesystem::path& path) {
   if (is_indoor_plan(path)) return only_level(path).floor;
   const GeoFile file = read_geojson(floor_file(path, "floor.geojson"));
+  require_kinds(file);
   FloorGroundTruth floor;
   floor.name = text_of(file.members, "name");
   floor.origin = file.origin;
@@ -201,9 +214,17 @@ FloorGroundTruth read_floor(const std::filesystem::path& path) {
 std::filesystem::path floor_file(const std::filesystem::path& path, const std::string& name) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return path;
-  if (!std::filesystem::exists(path / name, ignored))
+  if (!std::filesystem::exists(path / name, ignored)) {
+    std::string inside;  // an archive unpacks into a folder of its own
+    for (std::filesystem::directory_iterator entry(path, ignored), end; entry != end;
+         entry.increment(ignored))
+      for (const char* file : {"floor.geojson", "unit.geojson"})
+        if (std::filesystem::exists(entry->path() / file, ignored)) inside = entry->path().string();
     throw InputError({path.string()}, "the floor folder has no " + name,
-                     "a floor folder holds floor.geojson, scans/ and, where it is known, truth.geojson");
+                     inside.empty()
+                         ? "a floor folder holds floor.geojson, scans/ and, where it is known, truth.geojson"
+                         : "did you mean the folder '" + inside + "'?");
+  }
   return path / name;
 }
 
