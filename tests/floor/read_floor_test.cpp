@@ -110,7 +110,7 @@ TEST_CASE("faults of floor files are refused, each with its place and what was e
       {"{\n  \"type\": FeatureCollection}", "not valid JSON"},
       {"[]", "not a GeoJSON FeatureCollection"},
       {R"({"type":"FeatureCollection","features":{}})", "not a GeoJSON FeatureCollection"},
-      {collection("{}"), "feature 1: it has no 'kind'"},
+      {collection("{}"), "no feature of it has a 'kind', an 'indoor' tag or a 'feature_type'"},
       {collection("7"), "feature 1: it is not an object"},
       {collection(feature(R"("kind":"halway","id":"H")", "Polygon", square)), "kind 'halway' is unknown"},
       {collection(feature(R"("kind":"hallway")", "Polygon", square)), "has no 'id'"},
