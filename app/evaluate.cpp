@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -29,6 +30,7 @@ struct EvaluateArguments {
   std::string json, html;
   std::string cross;
   std::vector<std::string> rules;
+  bool likelihood = false;
   double wall_m = 0.2;
   LearnOptions learning;
   CrossOptions crossing;
@@ -70,13 +72,11 @@ RuleSet make_rules(const LearnedRules& learned) {
   return *checked.rules;
 }
 
-int cross(const EvaluateArguments& arguments) {
-  const KnownFloors known = floors_in(arguments.cross, arguments.wall_m);
-  const bool set_aside = report_on_reading(known);
-  const LearnData data = learn_data(known.floors, known.truths);
+/// Fits every floor with the rules of the others and prints how well.
+void print_scores(const EvaluateArguments& arguments, const LearnData& data, std::size_t floors) {
   std::printf(
       "leave one floor out: %zu floors, %d draws, scanned widths %.0f %% and positions %.2f m off%s; %s\n",
-      known.floors.size(), arguments.crossing.draws, 100 * arguments.crossing.width_error,
+      floors, arguments.crossing.draws, 100 * arguments.crossing.width_error,
       arguments.crossing.place_sigma_m, arguments.crossing.doors ? ", doors seen from the hallways" : "",
       arguments.crossing.least_error ? "layouts of least expected error" : "most probable layouts");
   std::printf("%8s  %-15s %9s %13s %22s %12s %7s\n", "scanned", "rules", "present", "counts right",
@@ -92,12 +92,29 @@ int cross(const EvaluateArguments& arguments) {
     std::fflush(stdout);
   };
   cross_validate(data, arguments.learning, make_rules, arguments.crossing, listener);
+  std::printf("\n");
+}
+
+/// How probable each floor is under the rules of the others and under rule files.
+void print_likelihoods(const EvaluateArguments& arguments, const LearnData& data) {
   std::vector<std::pair<std::string, RuleSet>> others;
-  for (const std::string& path : arguments.rules) others.emplace_back(path, read_rules(path));
-  std::printf("\nlog likelihood of the floor left out, nats per room\n");
+  for (const std::string& path : arguments.rules) {
+    others.emplace_back(path, read_rules(path));
+    others.back().second.inner_wall_m = data.inner_wall_m;  // as a fit would: the floors' own walls
+  }
+  std::printf("log likelihood of the floor left out, nats per room\n");
   for (const HeldOutLikelihood& item :
        held_out_likelihoods(data, arguments.learning, make_rules, others, arguments.crossing.grid_m))
-    std::printf("  %-34s %-28s %9.3f\n", item.floor.c_str(), item.rules.c_str(), item.nats_per_room);
+    std::printf("  %-34s %-28s %9.3f%s\n", item.floor.c_str(), item.rules.c_str(), item.nats_per_room,
+                std::isinf(item.nats_per_room) ? "  (a row that these rules cannot make)" : "");
+}
+
+int cross(const EvaluateArguments& arguments) {
+  const KnownFloors known = floors_in(arguments.cross, arguments.wall_m);
+  const bool set_aside = report_on_reading(known);
+  const LearnData data = learn_data(known.floors, known.truths);
+  if (!arguments.likelihood) print_scores(arguments, data, known.floors.size());
+  print_likelihoods(arguments, data);
   return set_aside ? kSetAside : kDone;
 }
 
@@ -140,7 +157,9 @@ Verb declare_evaluate(CLI::App& gramap) {
                                                "turn, learn on the others, fit it");
   cross_option->excludes(model);
   verb->add_option("--rules", arguments->rules,
-                   "With --cross: rule files whose likelihood is printed beside");
+                   "With --cross: rule files whose likelihood is printed beside, with the floors' walls");
+  verb->add_flag("--likelihood", arguments->likelihood,
+                 "With --cross: print the likelihoods of the floors left out, and fit nothing");
   verb->add_option("--shares", arguments->crossing.shares, "With --cross: shares of rooms that are scanned")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

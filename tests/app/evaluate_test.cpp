@@ -80,6 +80,18 @@ TEST_CASE("what a plan's reader sets aside is said by learn and evaluate, and th
   CHECK(crossed.code == 4);
   CHECK(has(crossed.out, "leave one floor out: 2 floors"));
   CHECK(has(crossed.error, "plan level 1: plan.geojson feature 16 ('bad') was set aside"));
+
+  // How probable the level left out is, beside rules written by hand: three lines a level, the learned first.
+  const auto likely = project.run("evaluate --likelihood --grid 0.1 --cross '" + file.string() +
+                                  "' --rules " GRAMAP_SOURCE_DIR "/rules/any_building.grammar");
+  CHECK(likely.out.starts_with("log likelihood of the floor left out, nats per room\n"));
+  const auto nats = [&](const std::string& rules) {
+    const std::size_t at = likely.out.find(rules);
+    REQUIRE(at != std::string::npos);
+    return std::stod(likely.out.substr(at + rules.size()));
+  };
+  CHECK(nats("learned on the others ") > nats("any_building.grammar "));
+  CHECK(nats("learned on the others ") >= nats("made uniform "));
 }
 
 TEST_CASE("floors that are none to learn from are refused with what they are") {
