@@ -85,10 +85,10 @@ TEST_CASE("what a plan's reader sets aside is said by learn and evaluate, and th
   const auto likely = project.run("evaluate --likelihood --grid 0.1 --cross '" + file.string() +
                                   "' --rules " GRAMAP_SOURCE_DIR "/rules/any_building.grammar");
   CHECK(likely.out.starts_with("log likelihood of the floor left out, nats per room\n"));
-  const auto nats = [&](const std::string& rules) {
-    const std::size_t at = likely.out.find(rules);
+  const auto nats = [&](const std::string& name) {
+    const std::size_t at = likely.out.find(name);
     REQUIRE(at != std::string::npos);
-    return std::stod(likely.out.substr(at + rules.size()));
+    return std::stod(likely.out.substr(at + name.size()));
   };
   CHECK(nats("learned on the others ") > nats("any_building.grammar "));
   CHECK(nats("learned on the others ") >= nats("made uniform "));
