@@ -51,10 +51,9 @@ std::vector<Polygon> cut_at_holes(const Polygon& outer, const std::vector<Polygo
   std::vector<Polygon> rings{simplified(outer)};
   for (const Polygon& hole : holes) rings.push_back(simplified(hole));
   std::vector<Cut> cuts;
-  for (int hole = 1; hole < static_cast<int>(rings.size()); ++hole) {
-    const Vec2 axis = oriented_box(rings[static_cast<std::size_t>(hole)]).axis;
+  const Vec2 axis = oriented_box(outer).axis;
+  for (int hole = 1; hole < static_cast<int>(rings.size()); ++hole)
     for (const Vec2& heading : {axis, Vec2(-axis)}) cuts.push_back(straight_on(rings, hole, heading));
-  }
   // Every ring now hangs on two others, so each cell is bounded by one ring.
   const Overlay cells = overlay(rings, cuts);
   std::vector<Polygon> pieces;

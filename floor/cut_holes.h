@@ -8,7 +8,7 @@
 
 namespace gramap {
 
-/// Cuts the area from both ends of each hole, along its longer side, to the next ring: the pieces,
+/// Cuts the area from both ends of each hole, along the area's longer side, to the next ring: the pieces,
 /// counter-clockwise, fill the area and have no holes. The holes lie inside of `outer`, apart from it and
 /// from each other; all rings are simple.
 std::vector<Polygon> cut_at_holes(const Polygon& outer, const std::vector<Polygon>& holes);
