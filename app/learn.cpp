@@ -62,7 +62,8 @@ Verb declare_learn(CLI::App& gramap) {
   verb->add_option(
           "floors", arguments->floors,
           "Floor folders with their truth, GeoJSON files that hold it, OpenStreetMap indoor plans, IMDF "
-          "folders (every level is a floor; FILE#LEVEL takes one), or fitted models (.glb, .gltf: what was "
+          "archives, zipped or not (every level is a floor; FILE#LEVEL takes one), or fitted models (.glb, "
+          ".gltf: what was "
           "scanned counts, derived rooms do not)")
       ->required();
   verb->add_option("-o,--output", arguments->output, "The rule file to write; - is standard output")

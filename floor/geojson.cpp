@@ -7,6 +7,7 @@
 
 #include "floor/geojson_plan.h"
 #include "floor/ring_check.h"
+#include "floor/zip.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
 #include "geometry/polygon.h"
@@ -21,9 +22,10 @@ using nlohmann::json;
 }
 
 json parse(const std::string& text, const std::string& path) {
-  if (text.starts_with("PK\x03\x04"))
-    fail_file(path, "this is a zip archive",
-              "unpack it into a folder, and give the folder: an IMDF archive's holds unit.geojson");
+  if (is_zip(text))
+    fail_file(
+        path, "this is a zip archive",
+        "of archives only IMDF's are read, which hold a unit.geojson; unpack it, and give the floor in it");
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
@@ -161,9 +163,14 @@ Polygon simple_ring(const GeoFile& file, const GeoFeature& feature, const Polygo
 
 GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about,
                      GeoFaults faults) {
+  return parse_geojson(read_file(path), path.string(), about, faults);
+}
+
+GeoFile parse_geojson(const std::string& text, const std::string& name, const std::optional<GeoOrigin>& about,
+                      GeoFaults faults) {
   GeoFile file;
-  file.path = path.string();
-  const json root = parse(read_file(path), file.path);
+  file.path = name;
+  const json root = parse(text, name);
   if (!root.is_object() || root.value("type", json()) != "FeatureCollection" || !root.contains("features") ||
       !root["features"].is_array())
     fail_file(file.path, "this is not a GeoJSON FeatureCollection",

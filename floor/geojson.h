@@ -49,6 +49,10 @@ enum class GeoFaults {
 /// InputError.
 GeoFile read_geojson(const std::filesystem::path& path, const std::optional<GeoOrigin>& about = std::nullopt,
                      GeoFaults faults = GeoFaults::refuse);
+/// The same of bytes that are at hand; `name` is what messages call the file.
+GeoFile parse_geojson(const std::string& text, const std::string& name,
+                      const std::optional<GeoOrigin>& about = std::nullopt,
+                      GeoFaults faults = GeoFaults::refuse);
 
 /// Property access; numbers given as text ("0.9") count as numbers and numbers serve as names.
 std::string text_of(const GeoProperties& properties, const std::string& key);

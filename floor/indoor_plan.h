@@ -49,9 +49,12 @@ struct IndoorPlan {
 /// An OpenStreetMap extract as GeoJSON: https://wiki.openstreetmap.org/wiki/Simple_Indoor_Tagging
 IndoorPlan read_osm(const GeoFile& file);
 
-/// An IMDF archive, unpacked, or one file with features of all types: https://docs.ogc.org/cs/20-094/
-/// Throws InputError.
+/// An IMDF archive, as a folder or a zip archive, or one file with features of all types:
+/// https://docs.ogc.org/cs/20-094/. Throws InputError.
 IndoorPlan read_imdf(const std::filesystem::path& path);
+
+/// True for the name of a file in a zip archive that `read_imdf` reads.
+bool is_imdf_file(const std::string& name);
 
 /// "unit.geojson feature 7 ('b')".
 std::string named(const GeoFile& file, const GeoFeature& feature);

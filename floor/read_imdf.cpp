@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "floor/indoor_plan.h"
+#include "floor/zip.h"
 #include "geometry/error.h"
+#include "geometry/file.h"
 
 namespace gramap {
 namespace {
@@ -54,16 +57,35 @@ struct Archive {
   std::map<std::string, std::vector<Source>> by_type;
 };
 
+constexpr const char* kFiles[] = {"unit.geojson", "level.geojson", "opening.geojson"};
+
+/// The archive's files that matter, by name: of a folder, or of a zip archive, in whatever folder in it.
+std::map<std::string, std::string> texts_of(const std::filesystem::path& path) {
+  std::map<std::string, std::string> texts;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    for (const char* name : kFiles)
+      if (std::filesystem::exists(path / name, ignored)) texts[name] = read_file(path / name);
+    return texts;
+  }
+  for (auto& [name, text] : read_zip(path, is_imdf_file))
+    texts.try_emplace(std::filesystem::path(name).filename().string(), std::move(text));
+  return texts;
+}
+
 Archive read_archive(const std::filesystem::path& path, IndoorPlan& plan) {
   Archive archive;
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    if (!std::filesystem::exists(path / "unit.geojson", ignored))
-      throw InputError({path.string()}, "the IMDF folder has no unit.geojson",
+  if (std::filesystem::is_directory(path, ignored) || is_zip(read_file(path))) {
+    const std::map<std::string, std::string> texts = texts_of(path);
+    if (!texts.contains("unit.geojson"))
+      throw InputError({path.string()}, "the IMDF archive has no unit.geojson",
                        "IMDF keeps rooms as units there");
-    for (const char* name : {"unit.geojson", "level.geojson", "opening.geojson"}) {
-      if (!std::filesystem::exists(path / name, ignored)) continue;
-      archive.files.push_back(read_geojson(path / name, plan.origin, GeoFaults::keep));
+    for (const char* name : kFiles) {
+      const auto text = texts.find(name);
+      if (text == texts.end()) continue;
+      archive.files.push_back(
+          parse_geojson(text->second, (path / name).string(), plan.origin, GeoFaults::keep));
       if (!plan.origin) plan.origin = archive.files.back().origin;
     }
   } else {
@@ -195,6 +217,12 @@ void read_openings(const Archive& archive, IndoorPlan& plan) {
 }
 
 }  // namespace
+
+bool is_imdf_file(const std::string& name) {
+  if (name.starts_with("__MACOSX/")) return false;  // attributes of files, by their names
+  const std::string file = std::filesystem::path(name).filename().string();
+  return std::find(std::begin(kFiles), std::end(kFiles), file) != std::end(kFiles);
+}
 
 IndoorPlan read_imdf(const std::filesystem::path& given) {
   IndoorPlan plan;

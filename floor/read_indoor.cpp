@@ -9,7 +9,9 @@
 #include "floor/find_spaces.h"
 #include "floor/indoor_plan.h"
 #include "floor/ring_check.h"
+#include "floor/zip.h"
 #include "geometry/error.h"
+#include "geometry/file.h"
 #include "geometry/polygon.h"
 
 namespace gramap {
@@ -41,6 +43,8 @@ Style style_of(const std::filesystem::path& path) {
                           std::filesystem::exists(path / "level.geojson", ignored));
     return archive && !std::filesystem::exists(path / "floor.geojson", ignored) ? Style::imdf : Style::none;
   }
+  if (const std::string text = read_file(path); is_zip(text))
+    return read_zip(path, is_imdf_file).empty() ? Style::none : Style::imdf;
   Style style = Style::none;
   for (const GeoFeature& feature : read_geojson(path, std::nullopt, GeoFaults::keep).features) {
     if (ours.contains(text_of(feature.properties, "kind"))) return Style::none;

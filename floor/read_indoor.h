@@ -1,7 +1,8 @@
 // Plans that others have drawn, read as floors with their truth: OpenStreetMap's simple indoor tagging (one
-// GeoJSON file) and IMDF, the Indoor Mapping Data Format (a folder of unit.geojson, level.geojson,
-// opening.geojson). Both are WGS84 and know no spaces and mostly no walls: rooms that abut are drawn in by
-// half a wall each, spaces are the rows of rooms along the hallways, stairs and lifts are fixed rooms.
+// GeoJSON file) and IMDF, the Indoor Mapping Data Format (a folder or zip archive of unit.geojson,
+// level.geojson, opening.geojson). Both are WGS84 and know no spaces and mostly no walls: rooms that abut are
+// drawn in by half a wall each, spaces are the rows of rooms along the hallways, stairs and lifts are fixed
+// rooms.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,8 @@ struct IndoorOptions {
   double storey_height_m = 2.7;  ///< clear height, where nothing is said of it
 };
 
-/// True for a folder with unit.geojson, and for a file whose features carry `indoor` tags and no `kind`.
+/// True for a folder or zip archive with unit.geojson, and for a file whose features have `indoor` tags or an
+/// IMDF feature_type and no kind of ours.
 bool is_indoor_plan(const std::filesystem::path& path);
 
 /// Every level of the plan as a floor, lowest first. A path that ends in "#LEVEL" means that level only.

@@ -107,7 +107,7 @@ TEST_CASE("floors that are none to learn from are refused with what they are") {
                                                       R"("building":"yes")", DrawnPlan().box(0, 0, 9, 9))));
   CHECK(has(refusal("map.geojson"), "no feature of it has a 'kind', an 'indoor' tag or a 'feature_type'"));
   project.write(project.folder() / "archive.zip", "PK\x03\x04...");
-  CHECK(has(refusal("archive.zip"), "this is a zip archive"));
+  CHECK(has(refusal("archive.zip"), "the zip archive has no directory"));
   fs::create_directories(project.folder() / "download" / "venue");
   project.write(project.folder() / "download" / "venue" / "unit.geojson", DrawnPlan::collection(""));
   CHECK(has(refusal("download"), "download/venue"));
