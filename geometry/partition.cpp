@@ -361,17 +361,23 @@ std::vector<Polygon> outline_around(const std::vector<Polygon>& rooms, double wa
 }
 
 std::vector<Polygon> border(const std::vector<Vec2>& points, const std::vector<Triangle>& triangles) {
-  std::set<std::pair<int, int>> edges;
+  // Where triangles lie on one another an edge is there twice: only so does every way round come to an end.
+  std::multiset<std::pair<int, int>> edges;
   for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k)
-      if (edges.erase({t[(k + 1) % 3], t[k]}) == 0) edges.insert({t[k], t[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k) {
+      const auto behind = edges.find({t[(k + 1) % 3], t[k]});
+      if (behind != edges.end())
+        edges.erase(behind);
+      else
+        edges.insert({t[k], t[(k + 1) % 3]});
+    }
   std::vector<Polygon> rings;
   while (!edges.empty()) {
     Polygon ring;
     auto edge = *edges.begin();
     const int start = edge.first;
     while (true) {
-      edges.erase(edge);
+      edges.erase(edges.find(edge));
       ring.push_back(points[edge.first]);
       if (edge.second == start) break;
       // Where rings touch in a point, the sharpest turn to the right keeps them apart.

@@ -151,6 +151,11 @@ TEST_CASE("what is wrong with a model file is found") {
     node("wall_101_102").mesh.triangles.pop_back();
     CHECK(has(verify_file(model), "open"));
   }
+  SUBCASE("a floor that is there twice") {
+    std::vector<Triangle>& triangles = node("room_101_floor").mesh.triangles;
+    triangles.insert(triangles.end(), triangles.begin(), triangles.end());
+    CHECK(has(verify_file(model), "overlap"));
+  }
   SUBCASE("a floor that faces down") {
     for (Triangle& t : node("room_101_floor").mesh.triangles) std::swap(t[0], t[1]);
     CHECK(has(verify_file(model), "orientation"));
