@@ -11,6 +11,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -71,7 +72,8 @@ struct RingTest {
 
 class Builder {
  public:
-  Builder(const std::vector<Polygon>& rings, const std::vector<Cut>& cuts) : rings_(rings), cuts_(cuts) {}
+  Builder(const std::vector<Polygon>& rings, const std::vector<Cut>& cuts)
+      : rings_(rings), cuts_(cuts), tiled_(rings.size(), Rational(0)) {}
 
   Overlay build() {
     insert();
@@ -103,11 +105,16 @@ class Builder {
     }
   }
 
+  /// Points so near to each other that they are the same in doubles become one.
   void number_points() {
+    std::map<std::pair<double, double>, int> numbers;
     for (const auto vertex : triangulation_.finite_vertex_handles()) {
-      vertex->info() = static_cast<int>(result_.points.size());
+      vertex->info() = static_cast<int>(exact_.size());
       const auto& point = vertex->point();
-      result_.points.emplace_back(CGAL::to_double(point.x()), CGAL::to_double(point.y()));
+      const double x = CGAL::to_double(point.x()), y = CGAL::to_double(point.y());
+      const auto [number, fresh] = numbers.try_emplace({x, y}, static_cast<int>(result_.points.size()));
+      if (fresh) result_.points.emplace_back(x, y);
+      number_.push_back(number->second);
       exact_.push_back({Rational(point.x().exact()), Rational(point.y().exact())});
     }
   }
@@ -141,43 +148,46 @@ class Builder {
     Overlay::Cell cell;
     double largest = -1;
     Triangulation::Face_handle inner;
+    Rational twice = 0;
     for (const auto face : faces) {
-      cell.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-      const Triangle& t = cell.triangles.back();
+      const int a = face->vertex(0)->info(), b = face->vertex(1)->info(), c = face->vertex(2)->info();
+      twice += twice_area(exact_[a], exact_[b], exact_[c]);
+      const Triangle t{number_[a], number_[b], number_[c]};
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+      cell.triangles.push_back(t);
       const Vec2 u = result_.points[t[1]] - result_.points[t[0]],
                  v = result_.points[t[2]] - result_.points[t[0]];
       const double area = (u.x() * v.y() - u.y() * v.x()) / 2;
       cell.area_m2 += area;
       if (area > largest) largest = area, inner = face;
     }
-    const Point inside = CGAL::centroid(triangulation_.triangle(inner));
+    const Point inside =
+        CGAL::centroid(triangulation_.triangle(cell.triangles.empty() ? faces.front() : inner));
     cell.inside = {CGAL::to_double(inside.x()), CGAL::to_double(inside.y())};
     for (int ring = 0; ring < static_cast<int>(tests.size()); ++ring)
       if (tests[ring].holds(inside)) cell.rings.push_back(ring);
-    if (!cell.rings.empty()) result_.cells.push_back(std::move(cell));
+    for (const int ring : cell.rings) tiled_[ring] += twice;
+    if (!cell.rings.empty() && !cell.triangles.empty()) result_.cells.push_back(std::move(cell));
   }
 
   void sum_areas() {
-    std::vector<Rational> rest(rings_.size(), Rational(0));
     for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
       const Polygon& points = rings_[ring];
+      Rational twice = 0;
       for (std::size_t i = 0; i < points.size(); ++i)
-        rest[ring] += cross(rational(points[i]), rational(points[(i + 1) % points.size()]));
-      if (rest[ring] < 0) rest[ring] = -rest[ring];
-      result_.ring_area_m2.push_back(CGAL::to_double(rest[ring]) / 2);
+        twice += cross(rational(points[i]), rational(points[(i + 1) % points.size()]));
+      if (twice < 0) twice = -twice;
+      result_.ring_area_m2.push_back(CGAL::to_double(twice) / 2);
+      result_.tiled.push_back(twice == tiled_[ring]);
     }
-    for (const Overlay::Cell& cell : result_.cells) {
-      Rational sum = 0;
-      for (const Triangle& t : cell.triangles) sum += twice_area(exact_[t[0]], exact_[t[1]], exact_[t[2]]);
-      for (const int ring : cell.rings) rest[ring] -= sum;
-    }
-    for (const Rational& r : rest) result_.tiled.push_back(r == 0);
   }
 
   const std::vector<Polygon>& rings_;
   const std::vector<Cut>& cuts_;
   Triangulation triangulation_;
-  std::vector<ExactPoint> exact_;
+  std::vector<ExactPoint> exact_;  ///< by the triangulation's vertex
+  std::vector<int> number_;        ///< likewise: the point that it is in the result
+  std::vector<Rational> tiled_;    ///< by ring: twice the area of its cells
   Overlay result_;
 };
 

@@ -355,8 +355,13 @@ std::vector<Polygon> outline_around(const std::vector<Polygon>& rooms, double wa
   for (const Overlay::Cell& cell : together.cells)
     triangles.insert(triangles.end(), cell.triangles.begin(), cell.triangles.end());
   std::vector<Polygon> rings;
-  for (Polygon& ring : border(together.points, triangles))
-    if (signed_area(ring) > 0 || -signed_area(ring) > 4 * wall_m * wall_m) rings.push_back(std::move(ring));
+  for (const Polygon& ring : border(together.points, triangles)) {
+    const bool hole = signed_area(ring) < 0;
+    if (hole && -signed_area(ring) <= 4 * wall_m * wall_m) continue;
+    // Rooms drawn by hand are never quite in line; a bend of less than a millimetre is no corner.
+    rings.push_back(simplified(ring, 1e-3));
+    if (hole) std::reverse(rings.back().begin(), rings.back().end());
+  }
   return rings;
 }
 

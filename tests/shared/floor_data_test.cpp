@@ -1,8 +1,12 @@
 // The floor files and RLS files of real buildings are read as what their READMEs say of them.
 #include <doctest/doctest.h>
 
+#include "floor/floor_of_truth.h"
 #include "floor/ground_truth.h"
+#include "floor/model.h"
+#include "floor/read_indoor.h"
 #include "floor/rls_csv.h"
+#include "floor/verify.h"
 #include "geometry/polygon.h"
 #include "tests/shared/shared_data.h"
 
@@ -42,4 +46,16 @@ TEST_CASE("the real RLS files: four shared walls, one of them before its segment
   CHECK(segments[7].next == 0);
   CHECK(segments[1].next == 2);
   CHECK(segments[4].next == 5);
+}
+
+TEST_CASE("levels of the university, as crowds drew them, are modelled whole") {
+  for (const char* name : {"apb/level0.geojson", "apb/level2.geojson"}) {
+    const auto file = test::shared_data(name);
+    if (!file) return;
+    CAPTURE(name);
+    const IndoorFloor level = only_level(*file);
+    const VerifyReport report = verify(build_model(floor_of_truth(level.floor, level.truth)));
+    INFO(to_text(report));
+    CHECK(report.ok());
+  }
 }
