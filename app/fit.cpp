@@ -61,6 +61,12 @@ int run(const Options& options) {
                  options.output.c_str());
     return kDefect;
   }
+  if (fitted.likeness > 0 && !options.inputs.fit.likeness && !options.inputs.quiet)
+    std::fprintf(
+        stderr,
+        "gramap: the scans show that the rooms of a space are as wide as one another, to %.0f %%, more "
+        "so than the rules say: others are expected to be, too (--likeness 0: as the rules say)\n",
+        100 * fitted.likeness);
   write_file(options.output, to_glb(model, run_info(options, fitted)));
   for (const SetAsideInput& aside : set_aside)
     std::fprintf(stderr, "gramap: warning: %s was set aside: %s\n", aside.what.c_str(), aside.reason.c_str());

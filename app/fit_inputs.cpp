@@ -74,6 +74,12 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
                   "Prior share of scanned rooms whose width is wrong")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 0.9));
+  verb.add_option(
+          "--likeness", options.fit.likeness,
+          "How alike the rooms of a space are: standard deviation of their widths, as a share of them. "
+          "Rooms are then expected to be as wide as one scanned in their space; 0: as the rules say "
+          "[what the scans of the floor show]")
+      ->check(CLI::Range(0.0, 1.0));
   verb.add_flag("--least-error", options.fit.space.least_error,
                 "Instead of the most probable layout take the one whose room widths are expected to be least "
                 "wrong: better where most rooms are not scanned and the rules leave much open");
@@ -159,6 +165,7 @@ int naming_floor(const FitInputOptions& options, const std::function<int()>& ver
 std::vector<std::pair<std::string, std::string>> itemised(const FitInputOptions& options) {
   std::vector<std::pair<std::string, std::string>> items;
   items.emplace_back("outlier-share", number(options.fit.space.outlier_share));
+  items.emplace_back("likeness", options.fit.likeness ? number(*options.fit.likeness) : "as the scans show");
   items.emplace_back("least-error", options.fit.space.least_error ? "true" : "false");
   if (!options.rls.empty()) {
     items.emplace_back("rls-sigma", number(options.rls_options.width_sigma_m));

@@ -5,6 +5,7 @@
 
 #include "app/fit_inputs.h"
 #include "app/verbs.h"
+#include "floor/fit_floor.h"
 #include "floor/scan_plan.h"
 
 namespace gramap {
@@ -19,9 +20,10 @@ struct Options {
 
 int run(Options options) {
   const FitInputs inputs = read_inputs(options.inputs);
-  options.plan.fit = options.inputs.fit.space;
   options.plan.target_sigma_m = options.target_cm / 100;
-  const ScanPlan plan = plan_scans(rules_on_floor(inputs.rules, inputs.floor), inputs.problems, options.plan);
+  const RuleSet rules = rules_on_floor(inputs.rules, inputs.floor);
+  options.plan.fit = space_options(rules, inputs.problems, options.inputs.fit);
+  const ScanPlan plan = plan_scans(rules, inputs.problems, options.plan);
   std::printf("uncertainty %.2f, least certain wall ± %.1f cm\n", plan.now.uncertainty,
               100 * plan.now.worst_sigma_m);
   if (plan.done) {

@@ -10,6 +10,7 @@
 
 #include "geometry/error.h"
 #include "geometry/random.h"
+#include "grammar/like_scanned.h"
 #include "grammar/likelihood.h"
 #include "grammar/row_evidence.h"
 #include "grammar/space.h"
@@ -89,10 +90,7 @@ std::vector<Interval> divide_equally(const SpaceProblem& problem, double wall_m,
 }
 
 std::vector<Interval> fit_rooms(const RuleSet& rules, const SpaceProblem& problem,
-                                const CrossOptions& crossing) {
-  FitOptions options;
-  options.grid_m = crossing.grid_m;
-  options.least_error = crossing.least_error;
+                                const FitOptions& options) {
   try {
     std::vector<Interval> rooms;
     for (const PlacedRoom& room : fit_space(rules, problem, options).best.rooms)
@@ -201,6 +199,21 @@ std::vector<Job> draw_jobs(const std::vector<const KnownRow*>& rows, double wall
   return jobs;
 }
 
+/// How each draw of a floor is fitted: its scans say whether its rooms are alike.
+std::vector<FitOptions> fit_options(const RuleSet& rules, const std::vector<Job>& jobs, std::size_t spaces,
+                                    const CrossOptions& crossing) {
+  std::vector<FitOptions> options;
+  for (std::size_t begin = 0; begin < jobs.size(); begin += spaces) {
+    std::vector<SpaceProblem> problems;
+    for (std::size_t i = begin; i < begin + spaces; ++i) problems.push_back(jobs[i].problem);
+    options.emplace_back();
+    options.back().grid_m = crossing.grid_m;
+    options.back().least_error = crossing.least_error;
+    options.back().likeness = likeness_of(rules, problems);
+  }
+  return options;
+}
+
 /// Rules that cannot be laid into a space at all, say because a unit is too deep for it, make it impossible.
 double likelihood_or_none(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
   try {
@@ -275,10 +288,15 @@ std::vector<CrossScore> cross_validate(const LearnData& data, const LearnOptions
     for (std::size_t f = 0; f < floors.size(); ++f) {
       const LeftOut& floor = floors[f];
       std::vector<Job> jobs = draw_jobs(floor.rows, data.inner_wall_m, options, s, options.seed + 7919 * f);
+      const std::vector<FitOptions> by_learned = fit_options(floor.learned, jobs, floor.rows.size(), options),
+                                    by_uniform = fit_options(floor.uniform, jobs, floor.rows.size(), options);
       tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
         Job& job = jobs[i];
-        job.sums[0] = compare(job.truth, fit_rooms(floor.learned, job.problem, options), job.scanned);
-        job.sums[1] = compare(job.truth, fit_rooms(floor.uniform, job.problem, options), job.scanned);
+        const std::size_t draw = i / floor.rows.size();
+        job.sums[0] =
+            compare(job.truth, fit_rooms(floor.learned, job.problem, by_learned[draw]), job.scanned);
+        job.sums[1] =
+            compare(job.truth, fit_rooms(floor.uniform, job.problem, by_uniform[draw]), job.scanned);
         job.sums[2] = compare(job.truth, divide_equally(job.problem, data.inner_wall_m, floor.usual_width_m),
                               job.scanned);
         if (!listener.step) return;

@@ -14,6 +14,7 @@
 #include "floor/missed_wall.h"
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "grammar/like_scanned.h"
 #include "grammar/likelihood.h"
 
 namespace gramap {
@@ -368,6 +369,13 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
   return problems;
 }
 
+FitOptions space_options(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
+                         const FloorFitOptions& options) {
+  FitOptions fitting = with_doorless_share(rules, problems, options.space);
+  fitting.likeness = options.likeness ? *options.likeness : likeness_of(rules, problems);
+  return fitting;
+}
+
 FittedFloor floor_of_layouts(const FloorGroundTruth& floor, const RuleSet& rules,
                              const std::vector<SpaceProblem>& problems,
                              const std::vector<SpaceFit>& layouts) {
@@ -382,7 +390,9 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
                       const std::vector<RoomObservation>& observations, const FloorFitOptions& options) {
   FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
   const RuleSet here = rules_on_floor(rules, floor);
-  fit_spaces(fitted, here, problems, with_doorless_share(here, problems, options.space));
+  const FitOptions fitting = space_options(here, problems, options);
+  fitted.likeness = fitting.likeness;
+  fit_spaces(fitted, here, problems, fitting);
   for (const PlacedObservation& placed : place_observations(floor, observations, options.placement).placed) {
     if (placed.on == PlacedObservation::On::space) continue;
     const RoomObservation& observation = observations[static_cast<std::size_t>(placed.observation)];

@@ -2,6 +2,7 @@
 // get their places in the plan.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "floor/fitted_floor.h"
@@ -17,6 +18,8 @@ struct FloorFitOptions {
   PlacementOptions placement;
   HallwayDoorOptions doors;
   FitOptions space;
+  /// Goes before `space.likeness` (grammar/like_scanned.h); none: what the floor's scans show.
+  std::optional<double> likeness;
 };
 
 /// What the observations say of each space: one problem per space of the floor, in its order, with scanned
@@ -28,6 +31,11 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
 
 /// The rules as they hold on this floor: its own wall thicknesses and height go before the rule file's.
 RuleSet rules_on_floor(const RuleSet& rules, const FloorGroundTruth& floor);
+
+/// How every space of the floor is fitted: `options.space` with what only the floor as a whole can tell, how
+/// many rooms show no door and how alike the rooms of a space are. `rules` as they hold on the floor.
+FitOptions space_options(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
+                         const FloorFitOptions& options);
 
 /// The most probable complete floor, from one problem per space in the floor's order. `observations` are
 /// those that the problems come from, if any: they add heights and what was measured of the hallways. What of

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grammar/inference.h"
+#include "grammar/like_scanned.h"
 
 namespace gramap {
 namespace {
@@ -30,9 +31,10 @@ NodeMask coarse_mask(const RuleSet& rules, const SpaceProblem& problem, const Fi
   const double step_m = kCoarseness * fine.grid().step_m;
   if (step_m > kFinestCoarse_m) return {};
   const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, step_m);
-  const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
+  CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
   if (compiled.fault) return {};
-  const Evidence evidence(rules, problem, options, grid);
+  const Evidence evidence(rules, problem, options, grid,
+                          expect_as_scanned(rules, problem, options.likeness, compiled.row));
   const Lattice coarse(compiled.row, grid, evidence);
   const NodeTable before = forward(coarse);
   if (!std::isfinite(log_total(coarse, before))) return {};

@@ -98,7 +98,7 @@ void set_densities(PreparedEvidence& e, const Grid& grid) {
 }  // namespace
 
 Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options,
-                   const Grid& grid)
+                   const Grid& grid, const std::vector<double>& whole_factor)
     : rules_(rules), options_(options), grid_(grid), depth_m_(problem.depth_m) {
   width_range_m_ = std::max(rules.background.most_m, 1.0);
   const double h = grid.step_m;
@@ -110,6 +110,7 @@ Evidence::Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitO
     PreparedEvidence e;
     e.original = static_cast<int>(i);
     e.width_m = given.width_m;
+    if (!whole_factor.empty()) e.whole_factor = whole_factor[i];
     e.width_sd_m = std::sqrt(given.width_sigma_m * given.width_sigma_m + h * h / 6);
     e.of_two_rooms = given.of_two_rooms;
     e.has_other = given.other_width_m.has_value();
@@ -208,7 +209,7 @@ double Evidence::reading(const PreparedEvidence& e, Reading how, const Extent& r
     case Reading::aside:
       return e.aside;
     case Reading::whole:
-      return (e.has_other ? 0.5 : 1) * e.depth_factor * fits(e.width_m, e.width_sd_m);
+      return (e.has_other ? 0.5 : 1) * e.whole_factor * e.depth_factor * fits(e.width_m, e.width_sd_m);
     case Reading::swapped:
       return e.has_other ? 0.5 * e.swapped_depth_factor * fits(e.other_m, e.other_sd_m) : 0;
     default:
@@ -252,7 +253,7 @@ bool Evidence::belongs(const PreparedEvidence& e, int cell, int first, int strid
     add(widths.first, widths.last(),
         [&](int width) { return factor * widths.at(width) * e.centre_density.at(2 * cell + width); });
   };
-  add_whole(e.width_density, (e.has_other ? 0.5 : 1) * e.depth_factor * whole);
+  add_whole(e.width_density, (e.has_other ? 0.5 : 1) * e.whole_factor * e.depth_factor * whole);
   if (e.has_other) add_whole(e.other_density, 0.5 * e.swapped_depth_factor * whole);
   if (!e.has_centre) return any;
   const double cut_off = known * options_.cut_off_share * 0.5 * e.depth_factor / kMostCutOff_m;

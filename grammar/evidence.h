@@ -70,6 +70,7 @@ struct PreparedEvidence {
   std::vector<double> type_factor;  ///< by room type; last: background
   double type_even = 1;             ///< the factor of a type that nothing is known of
   double aside = 0;                 ///< weight of belonging to no room
+  double whole_factor = 1;          ///< of being a room of its width, whatever the room
   double again = 1;                 ///< factor when the same room explains this and a later evidence
   double depth_factor = 1;          ///< density of `other` across the line
   double swapped_depth_factor = 0;  ///< density of `width` across the line
@@ -87,7 +88,10 @@ struct PreparedEvidence {
 
 class Evidence {
  public:
-  Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options, const Grid& grid);
+  /// `whole_factor`: by scanned room, what its likelihood as a whole room is multiplied with
+  /// (like_scanned.h); empty: nothing.
+  Evidence(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options, const Grid& grid,
+           const std::vector<double>& whole_factor = {});
 
   const std::vector<PreparedEvidence>& rooms() const { return rooms_; }
   const Grid& grid() const { return grid_; }

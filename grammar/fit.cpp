@@ -11,6 +11,7 @@
 #include "grammar/inference.h"
 #include "grammar/lattice.h"
 #include "grammar/least_error.h"
+#include "grammar/like_scanned.h"
 #include "grammar/placed_rooms.h"
 #include "grammar/sequence.h"
 #include "grammar/space.h"
@@ -155,9 +156,10 @@ void put_least_error_first(const Lattice& lattice, const NodeTable& before, cons
 SpaceFit fit_space(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options) {
   check(rules, problem, options);
   const Grid grid = make_grid(problem.length_m, rules.inner_wall_m, options.grid_m);
-  const CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
+  CompiledRow compiled = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade}, grid);
   refuse_fault(rules, problem, compiled);
-  const Evidence evidence(rules, problem, options, grid);
+  const Evidence evidence(rules, problem, options, grid,
+                          expect_as_scanned(rules, problem, options.likeness, compiled.row));
   Lattice lattice(compiled.row, grid, evidence);
   lattice.restrict(coarse_mask(rules, problem, options, lattice));
   const NodeTable before = forward(lattice);

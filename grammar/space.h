@@ -115,6 +115,9 @@ struct FitOptions {
   double doorless_share = 0.03;      ///< prior share of rooms without a door to the hallway
   double second_door_share = 0.05;   ///< prior share of rooms with two doors or more
   double false_door_share = 0.01;    ///< expected number of doors seen per space that are none
+  /// > 0: rooms of a space are expected to be as wide as those scanned in it, to this share of their width,
+  /// one standard deviation (like_scanned.h).
+  double likeness = 0;
   int beam = 24;                     ///< prefixes of layouts that are carried on from about the same place
   int alternatives = 0;              ///< how many distinct alternatives to report
   /// Instead of the most probable layout the one whose widths are expected to be least wrong
