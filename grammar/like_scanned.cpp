@@ -19,11 +19,6 @@ double gauss(double value, double mean, double sd) {
   return std::exp(-0.5 * z * z) / (sd * std::sqrt(2 * std::numbers::pi));
 }
 
-/// Scans whose width along the line is known.
-bool tells_width(const RoomEvidence& room) {
-  return !room.other_width_m && !room.of_two_rooms;
-}
-
 /// Of the width of a room that is as wide as this scanned one.
 double alike_sd_m(const RoomEvidence& room, double likeness) {
   return std::hypot(room.width_sigma_m, likeness * room.width_m);
@@ -108,6 +103,20 @@ double density(const Row& row, const Expected& expected, double width_m, double 
   return expected.share_of_rest < 1 ? sum / (1 - expected.share_of_rest) : 0;
 }
 
+using Scans = std::vector<const RoomEvidence*>;
+
+/// The scans whose width along the line is known and is one that the rules allow: what they rule out
+/// altogether stays ruled out.
+Scans examples(const Row& row, const Expected& expected, const std::vector<RoomEvidence>& scanned) {
+  constexpr double kRuledOut = 1e-6;  // density per metre
+  Scans rooms;
+  for (const RoomEvidence& room : scanned)
+    if (!room.other_width_m && !room.of_two_rooms &&
+        density(row, expected, room.width_m, room.width_sigma_m) > kRuledOut)
+      rooms.push_back(&room);
+  return rooms;
+}
+
 /// What the scans add to an element.
 struct Votes {
   double prior = 0;                        ///< share of the element among all rooms
@@ -126,48 +135,43 @@ double type_factor(const RuleSet& rules, const RoomEvidence& scan, int type) {
 }
 
 std::vector<Votes> count_votes(const RuleSet& rules, const Row& row, const Expected& expected,
-                               const std::vector<RoomEvidence>& scanned, double likeness) {
+                               const Scans& scans, double likeness) {
   constexpr double kNegligible = 1e-3;
   std::vector<Votes> votes(row.elements.size());
   for (const Usual& room : expected.rooms) votes[room.element].prior += room.share;
-  for (const RoomEvidence& scan : scanned) {
-    if (!tells_width(scan)) continue;
-    const double sd_m = alike_sd_m(scan, likeness);
+  for (const RoomEvidence* of : scans) {
+    const RoomEvidence& scan = *of;
     std::vector<double> fits;
     double sum = 0;
     for (const Usual& room : expected.rooms) {
       fits.push_back(room.share * type_factor(rules, scan, room.type) *
-                     density(row.elements[room.element], room.width, scan.width_m, sd_m));
+                     density(row.elements[room.element], room.width, scan.width_m, scan.width_sigma_m));
       sum += fits.back();
     }
     for (std::size_t i = 0; i < fits.size(); ++i) {
       const Usual& room = expected.rooms[i];
       const double element_m = (scan.width_m - room.width.constant) / room.width.slope;
-      if (sum <= 0 || fits[i] < kNegligible * sum || element_m <= 0) continue;
+      if (fits[i] < kNegligible * sum || element_m <= 0) continue;
       const double vote = (1 - expected.share_of_rest) * fits[i] / sum;
       votes[room.element].count += vote;
-      votes[room.element].widths.push_back({vote, {element_m, sd_m / room.width.slope}});
+      votes[room.element].widths.push_back(
+          {vote, {element_m, alike_sd_m(scan, likeness) / room.width.slope}});
     }
   }
   return votes;
 }
 
-/// How likely each scan's width was without itself / with it.
-std::vector<double> without_own(const Row& row, const Expected& expected,
-                                const std::vector<RoomEvidence>& scanned, double count, double likeness) {
-  std::vector<double> ratios;
-  for (const RoomEvidence& scan : scanned) {
-    ratios.push_back(1);
-    if (!tells_width(scan)) continue;
-    double others = density(row, expected, scan.width_m, scan.width_sigma_m);
-    double own = 0;
-    for (const RoomEvidence& other : scanned)
-      if (tells_width(other))
-        (&other == &scan ? own : others) +=
-            gauss(scan.width_m, other.width_m, std::hypot(scan.width_sigma_m, alike_sd_m(other, likeness)));
-    ratios.back() = (others / count) / ((others + own) / (count + 1));
-  }
-  return ratios;
+/// What scans among the examples say of a room as wide as this scan, each all alike: itself, and the others.
+struct Foretold {
+  double own = 0, others = 0;
+};
+
+Foretold foretold(const RoomEvidence& scan, const Scans& scans, double likeness) {
+  Foretold sum;
+  for (const RoomEvidence* other : scans)
+    (other == &scan ? sum.own : sum.others) +=
+        gauss(scan.width_m, other->width_m, std::hypot(scan.width_sigma_m, alike_sd_m(*other, likeness)));
+  return sum;
 }
 
 /// An element whose widths are a mixture gets the scanned ones into it. Beside one of even widths there is a
@@ -238,13 +242,19 @@ void weigh_arcs(Row& row, const std::vector<Taught>& taught) {
 
 std::vector<double> expect_as_scanned(const RuleSet& rules, const SpaceProblem& problem, double likeness,
                                       Row& row) {
-  const auto count =
-      static_cast<double>(std::count_if(problem.rooms.begin(), problem.rooms.end(), tells_width));
-  if (likeness <= 0 || count == 0) return {};
+  if (likeness <= 0) return {};
   const Expected expected = expected_rooms(row);
-  if (expected.rooms.empty()) return {};
-  std::vector<double> ratios = without_own(row, expected, problem.rooms, count, likeness);
-  const std::vector<Votes> votes = count_votes(rules, row, expected, problem.rooms, likeness);
+  const Scans scans = examples(row, expected, problem.rooms);
+  if (scans.empty()) return {};
+  const auto count = static_cast<double>(scans.size());
+  std::vector<double> ratios(problem.rooms.size(), 1);
+  for (const RoomEvidence* scan : scans) {
+    const Foretold by = foretold(*scan, scans, likeness);
+    const double others = density(row, expected, scan->width_m, scan->width_sigma_m) + by.others;
+    ratios[static_cast<std::size_t>(scan - problem.rooms.data())] =
+        (others / count) / ((others + by.own) / (count + 1));
+  }
+  const std::vector<Votes> votes = count_votes(rules, row, expected, scans, likeness);
   std::vector<Taught> taught;
   for (std::size_t i = 0; i < votes.size(); ++i) taught.push_back(teach(row, i, votes[i], count));
   weigh_arcs(row, taught);
@@ -256,27 +266,19 @@ double likeness_of(const RuleSet& rules, const std::vector<SpaceProblem>& proble
   // Worth a mention (Kass and Raftery 1995): below it, the rules are taken at their word.
   const double least_gain = std::log(3);
   constexpr double kUsualGrid_m = 0.1;  // conditions on the length are asked at the row's start only
-  constexpr double kOutlier = 1e-6;     // density per metre: what nothing foretells says nothing
   std::vector<double> gains(std::size(kLikenesses), 0);
   for (const SpaceProblem& problem : problems) {
-    std::vector<RoomEvidence> rooms;
-    std::copy_if(problem.rooms.begin(), problem.rooms.end(), std::back_inserter(rooms), tells_width);
-    if (rooms.size() < 2) continue;
+    if (problem.rooms.size() < 2) continue;
     const CompiledRow bare = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade},
                                          make_grid(problem.length_m, rules.inner_wall_m, kUsualGrid_m));
     if (bare.fault) continue;  // the fit itself will say so
     const Expected expected = expected_rooms(bare.row);
-    for (std::size_t r = 0; r < rooms.size(); ++r) {
-      const RoomEvidence& room = rooms[r];
-      const double foretold = density(bare.row, expected, room.width_m, room.width_sigma_m);
+    const Scans scans = examples(bare.row, expected, problem.rooms);
+    for (const RoomEvidence* scan : scans) {
+      const double ruled = density(bare.row, expected, scan->width_m, scan->width_sigma_m);
       for (std::size_t i = 0; i < gains.size(); ++i) {
-        double like = foretold;  // the rules' share of the urn
-        for (std::size_t other = 0; other < rooms.size(); ++other)
-          if (other != r)
-            like += gauss(room.width_m, rooms[other].width_m,
-                          std::hypot(room.width_sigma_m, alike_sd_m(rooms[other], kLikenesses[i])));
-        like /= static_cast<double>(rooms.size());
-        gains[i] += std::log((like + kOutlier) / (foretold + kOutlier));
+        const double alike = ruled + foretold(*scan, scans, kLikenesses[i]).others;
+        gains[i] += std::log(alike / static_cast<double>(scans.size()) / ruled);
       }
     }
   }

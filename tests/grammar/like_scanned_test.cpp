@@ -139,6 +139,16 @@ TEST_CASE("a likeness of zero, and scans whose dimension along the line is not k
   CHECK(first_width(row, 3.1) == first_width(row_of(rules, problem), 3.1));
 }
 
+TEST_CASE("what the rules rule out stays ruled out") {
+  const RuleSet rules =
+      rules_of("grammar g; wall inner 0.10 m; room A { width 4.00 m +- 1 cm; } start S; a: S -> A S : 1;\n");
+  SpaceProblem problem = bare(60);
+  problem.rooms = {scan(0, 5.25), scan(10, 5.25), scan(20, 5.25)};
+  Row row = row_of(rules, problem);
+  CHECK(expect_as_scanned(rules, problem, 0.08, row).empty());
+  CHECK(likeness_of(rules, {problem}) == 0);
+}
+
 TEST_CASE("the scan's type says whose width it is") {
   const RuleSet rules = rules_of(kOffices);
   SpaceProblem problem = bare(60);
