@@ -182,6 +182,11 @@ Verb declare_evaluate(CLI::App& gramap) {
       ->check(CLI::Range(0.005, 0.5))
       ->capture_default_str();
   verb->add_flag("--doors", arguments->crossing.doors, "With --cross: the hallways' doors are seen, too");
+  verb->add_option(
+          "--likeness", arguments->crossing.likeness,
+          "With --cross: how alike the rooms of a space are, as in fit; 0: as the rules say [what the "
+          "scans show]")
+      ->check(CLI::Range(0.0, 1.0));
   verb->add_flag("!--most-probable", arguments->crossing.least_error,
                  "With --cross: judge the most probable layout instead of the one whose widths are expected "
                  "to be least wrong");

@@ -209,7 +209,7 @@ std::vector<FitOptions> fit_options(const RuleSet& rules, const std::vector<Job>
     options.emplace_back();
     options.back().grid_m = crossing.grid_m;
     options.back().least_error = crossing.least_error;
-    options.back().likeness = likeness_of(rules, problems);
+    options.back().likeness = crossing.likeness ? *crossing.likeness : likeness_of(rules, problems);
   }
   return options;
 }

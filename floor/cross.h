@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,10 @@ struct CrossOptions {
   double width_error = 0.03;   ///< standard deviation of a scanned width, relative
   double place_sigma_m = 0.3;  ///< standard deviation of a scanned room's position
   double grid_m = 0.05;        ///< step of the fit's positions: plans drawn to 0.2 m need no centimetres
-  bool least_error = true;     ///< FitOptions::least_error: the score is the error of widths; else the mode
-  bool doors = false;          ///< hallways are scanned too: every door of the plan is seen, to 5 cm
+  /// FitOptions::likeness; none: what the scans of a draw show, as in the fit of a floor.
+  std::optional<double> likeness;
+  bool least_error = true;  ///< FitOptions::least_error: the score is the error of widths; else the mode
+  bool doors = false;       ///< hallways are scanned too: every door of the plan is seen, to 5 cm
 };
 
 enum class CrossMethod { learned, uniform, equal_division };
