@@ -118,8 +118,8 @@ struct FitOptions {
   /// > 0: rooms of a space are expected to be as wide as those scanned in it, to this share of their width,
   /// one standard deviation (like_scanned.h).
   double likeness = 0;
-  int beam = 24;                     ///< prefixes of layouts that are carried on from about the same place
-  int alternatives = 0;              ///< how many distinct alternatives to report
+  int beam = 24;         ///< prefixes of layouts that are carried on from about the same place
+  int alternatives = 0;  ///< how many distinct alternatives to report
   /// Instead of the most probable layout the one whose widths are expected to be least wrong
   /// (least_error.h); widths are means over all layouts of its sequence.
   bool least_error = false;

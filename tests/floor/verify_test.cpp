@@ -93,7 +93,7 @@ TEST_CASE("a solid that is open, inside out or not finite is named") {
   CHECK(faults_of(twisted).count("orientation") == 1);
 
   FloorModel doubled = sound_model();
-  append(doubled.slab, doubled.slab);
+  append(doubled.slab, Mesh(doubled.slab));
   CHECK(faults_of(doubled).count("manifold") == 1);
 
   FloorModel endless = sound_model();

@@ -213,8 +213,8 @@ TEST_CASE("floors drawn from the rules are as the rules say; floors of rows that
     std::vector<SpaceProblem> drawn, alike;
     for (std::uint64_t space = 0; space < 4; ++space) {
       drawn.push_back(bare(40));
-      for (const PlacedRoom& room :
-           SpaceDeriver(rules, drawn.back(), 0.05).draw(1, 10 * floor + space).front().rooms)
+      const auto layouts = SpaceDeriver(rules, drawn.back(), 0.05).draw(1, 10 * floor + space);
+      for (const PlacedRoom& room : layouts.front().rooms)
         if (any(generator) < 0.5) drawn.back().rooms.push_back(scan(room.start_m, room.width_m));
       alike.push_back(bare(40));
       const double usual_m = 3 + 6 * any(generator);
