@@ -4,6 +4,9 @@
 // usage: bench_planes [CLOUDS_PER_ROW] [MOST_POINTS] [FOLDER_OF_SCANS] [METHOD]     (3, 1000000; a folder's
 // cloud has no truth: what share of its points lies within 5 cm of a plane is printed instead; - for none.
 // METHOD: this one only, "gramap" for ours)
+//        bench_planes --3dtk FOLDER [POINTS]    (100000) writes each cloud to a folder in FOLDER, for 3DTK;
+//        where
+// 3DTK's planes are there (planes/plane000.3d, …), a row is printed instead
 //
 // The room: 5 × 4 × 2.8 m turned by 17°, a door and a window left open, a table, two chairs, a cupboard; a
 // tenth of the points on these things, and, in the rows with stray points, a tenth anywhere in the volume. A
@@ -213,34 +216,64 @@ void print_row(const std::string& method, const std::string& cloud, std::vector<
   std::fflush(stdout);
 }
 
-int run_all(int count, char** arguments) {
-  const int clouds = count > 1 ? std::max(1, std::atoi(arguments[1])) : 3;
-  const std::size_t most = count > 2 ? static_cast<std::size_t>(std::atoll(arguments[2])) : 1000000;
-  std::vector<PlaneMethod> methods{{"gramap", 1000000000, ours}};
-  for (const auto& more : {cgal_methods(), pcl_methods()})
-    methods.insert(methods.end(), more.begin(), more.end());
-  if (count > 4) std::erase_if(methods, [&](const PlaneMethod& m) { return m.name != arguments[4]; });
+struct CloudKind {
+  double noise_m, stray;
+};
+constexpr CloudKind kCloudKinds[] = {{0.01, 0}, {0.01, 0.1}, {0.02, 0}, {0.02, 0.1}};
+
+std::string name_of(const CloudKind& kind, std::size_t points) {
+  char name[80];
+  std::snprintf(name, sizeof name, "%zu points, %.0f cm noise%s", points, 100 * kind.noise_m,
+                kind.stray > 0 ? ", stray" : "");
+  return name;
+}
+
+void print_head() {
   std::printf(
       "| cloud | method | CPU s | planes | faces of 6, least | false, most | error mm | peak MB |\n"
       "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+}
+
+int for_3dtk(const std::filesystem::path& folder, std::size_t count) {
   const Scene scene = furnished_room();
-  for (const double noise_m : {0.01, 0.02})
-    for (const double stray : {0.0, 0.1})
-      for (std::size_t points = 100000; points <= most; points *= 10)
-        for (const PlaneMethod& method : methods) {
-          if (points > method.most_points) continue;
-          std::vector<Result> results;
-          for (int cloud = 0; cloud < clouds; ++cloud)
-            if (const auto result =
-                    run(method, scene,
-                        sampled(scene, points, noise_m, stray, static_cast<std::uint64_t>(cloud) + 1)))
-              results.push_back(*result);
-          if (results.empty()) continue;
-          char name[80];
-          std::snprintf(name, sizeof name, "%zu points, %.0f cm noise%s", points, 100 * noise_m,
-                        stray > 0 ? ", stray" : "");
-          print_row(method.name, name, results);
-        }
+  print_head();
+  for (const CloudKind& kind : kCloudKinds) {
+    const std::vector<Point> points = sampled(scene, count, kind.noise_m, kind.stray, 1);
+    std::string name = std::to_string(std::lround(100 * kind.noise_m)) + "cm";
+    if (kind.stray > 0) name += "-stray";
+    if (!std::filesystem::exists(folder / name / "scan000.3d")) write_for_3dtk(folder / name, points);
+    const std::vector<FoundPlane> planes = planes_of_3dtk(folder / name / "planes");
+    if (planes.empty()) continue;
+    const Result result = judged(planes, scene, points);
+    std::printf("| %s | 3DTK | – | %d | %d | %d | %.2f | – |\n", name_of(kind, count).c_str(), result.planes,
+                result.faces, result.false_planes, 1000 * result.error_m);
+  }
+  return 0;
+}
+
+int run_all(int count, char** arguments) {
+  if (count > 2 && std::string(arguments[1]) == "--3dtk")
+    return for_3dtk(arguments[2], count > 3 ? static_cast<std::size_t>(std::atoll(arguments[3])) : 100000);
+  const int clouds = count > 1 ? std::max(1, std::atoi(arguments[1])) : 3;
+  const std::size_t most = count > 2 ? static_cast<std::size_t>(std::atoll(arguments[2])) : 1000000;
+  std::vector<PlaneMethod> methods{{"gramap", 1000000000, ours}};
+  for (const auto& more : {cgal_methods(), pcl_methods(), open3d_methods()})
+    methods.insert(methods.end(), more.begin(), more.end());
+  if (count > 4) std::erase_if(methods, [&](const PlaneMethod& m) { return m.name != arguments[4]; });
+  print_head();
+  const Scene scene = furnished_room();
+  for (const CloudKind& kind : kCloudKinds)
+    for (std::size_t points = 100000; points <= most; points *= 10)
+      for (const PlaneMethod& method : methods) {
+        if (points > method.most_points) continue;
+        std::vector<Result> results;
+        for (int cloud = 0; cloud < clouds; ++cloud)
+          if (const auto result = run(
+                  method, scene,
+                  sampled(scene, points, kind.noise_m, kind.stray, static_cast<std::uint64_t>(cloud) + 1)))
+            results.push_back(*result);
+        if (!results.empty()) print_row(method.name, name_of(kind, points), results);
+      }
   if (count > 3 && std::string(arguments[3]) != "-") {
     const RegisteredCloud cloud = registered(read_room_scans(arguments[3]));
     std::printf(

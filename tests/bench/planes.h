@@ -1,6 +1,7 @@
 // What the benchmark of plane detection shares: clouds of known truth, and the methods that are compared.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,5 +26,12 @@ struct PlaneMethod {
 std::vector<PlaneMethod> cgal_methods();
 /// PCL's SACSegmentation, repeated on what is left; none when gramap was configured without PCL.
 std::vector<PlaneMethod> pcl_methods();
+/// Open3D's SegmentPlane, likewise; none when gramap was configured without Open3D.
+std::vector<PlaneMethod> open3d_methods();
+
+/// A cloud as the scan folder that 3DTK's `planes` reads: scan000.3d and scan000.pose.
+void write_for_3dtk(const std::filesystem::path& folder, std::span<const Point> points);
+/// The planes of the convex hulls plane000.3d, plane001.3d, … that it writes; none where there are none.
+std::vector<FoundPlane> planes_of_3dtk(const std::filesystem::path& folder);
 
 }  // namespace gramap::bench
