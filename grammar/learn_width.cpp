@@ -36,6 +36,24 @@ double penalty(std::size_t groups, std::size_t values) {
   return 0.5 * (3.0 * static_cast<double>(groups) - 1) * std::log(static_cast<double>(values));
 }
 
+/// Where groups may begin and end among n sorted values: anywhere or, so that many values cost no more than
+/// their sorting, where the gaps are widest. Ascending, with 0 and n.
+std::vector<std::size_t> cuts_of(const std::vector<double>& sorted) {
+  constexpr std::size_t most = 1000;
+  const std::size_t n = sorted.size();
+  std::vector<std::size_t> cuts(n + 1);
+  std::iota(cuts.begin(), cuts.end(), std::size_t{0});
+  if (n <= most) return cuts;
+  const auto gap = [&](std::size_t i) { return sorted[i] - sorted[i - 1]; };
+  const auto inner = cuts.begin() + 1, end = cuts.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(inner, end, cuts.end() - 1,
+                   [&](std::size_t i, std::size_t j) { return gap(i) != gap(j) ? gap(i) > gap(j) : i < j; });
+  *end = n;
+  cuts.resize(most + 1);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
 /// Between `fewest` and `most_groups` groups, as many as make the code shortest.
 std::vector<LengthGroup> best_groups(const std::vector<double>& values_m, double resolution_m, int fewest,
                                      int most_groups, int least_members) {
@@ -54,45 +72,52 @@ std::vector<LengthGroup> best_groups(const std::vector<double>& values_m, double
   for (double& value : centred) value -= shift;
   const Sums sums(centred);
   const double total = static_cast<double>(n);
+  std::vector<double> log_share(n + 1);
+  for (std::size_t members = 1; members <= n; ++members)
+    log_share[members] = std::log(static_cast<double>(members) / total);
   const auto cost = [&](std::size_t a, std::size_t b) {
     const double members = static_cast<double>(b - a), variance = sums.variance(a, b);
     const double sd = std::max(std::sqrt(variance), resolution_m);
-    return normal_cost(members, variance, sd) - members * std::log(members / total);
+    return normal_cost(members, variance, sd) - members * log_share[b - a];
   };
 
   const std::size_t most = std::min(n, static_cast<std::size_t>(most_groups));
   const std::size_t least = std::min(n, static_cast<std::size_t>(least_members));
   const double never = std::numeric_limits<double>::infinity();
-  std::vector<std::vector<double>> best(most + 1, std::vector<double>(n + 1, never));
-  std::vector<std::vector<std::size_t>> from(most + 1, std::vector<std::size_t>(n + 1, 0));
+  // best[k][j]: the shortest code of the values before cut j in k groups, the last of which begins at cut
+  // from[k][j].
+  const std::vector<std::size_t> cuts = cuts_of(sorted);
+  const std::size_t last = cuts.size() - 1;
+  std::vector<std::vector<double>> best(most + 1, std::vector<double>(last + 1, never));
+  std::vector<std::vector<std::size_t>> from(most + 1, std::vector<std::size_t>(last + 1, 0));
   best[0][0] = 0;
-  std::size_t chosen = most;
-  double shortest = never;
-  for (std::size_t k = 1; k <= most; ++k) {
-    for (std::size_t b = k; b <= n; ++b) {
-      for (std::size_t a = k - 1; a + least <= b; ++a) {
-        if (best[k - 1][a] == never) continue;
-        const double value = best[k - 1][a] + cost(a, b);
-        if (value >= best[k][b]) continue;
-        best[k][b] = value;
-        from[k][b] = a;
+  for (std::size_t j = 1; j <= last; ++j) {
+    for (std::size_t i = 0; i < j && cuts[i] + least <= cuts[j]; ++i) {
+      const double group = cost(cuts[i], cuts[j]);
+      for (std::size_t k = 1; k <= most; ++k) {
+        if (best[k - 1][i] + group >= best[k][j]) continue;
+        best[k][j] = best[k - 1][i] + group;
+        from[k][j] = i;
       }
     }
-    const double length = best[k][n] + penalty(k, n);
-    if (static_cast<int>(k) >= fewest && length < shortest - 1e-9) {
-      shortest = length;
-      chosen = k;
-    }
+  }
+  std::size_t chosen = most;
+  double shortest = never;
+  for (std::size_t k = static_cast<std::size_t>(std::max(1, fewest)); k <= most; ++k) {
+    const double length = best[k][last] + penalty(k, n);
+    if (length >= shortest - 1e-9) continue;
+    shortest = length;
+    chosen = k;
   }
   std::vector<LengthGroup> groups(chosen);
-  for (std::size_t k = chosen, b = n; k > 0; --k) {
-    const std::size_t a = from[k][b];
+  for (std::size_t k = chosen, j = last; k > 0; --k) {
+    const std::size_t a = cuts[from[k][j]], b = cuts[j];
     LengthGroup& group = groups[k - 1];
     group.mean_m = sums.mean(a, b) + shift;
     group.sd_m = std::max(std::sqrt(sums.variance(a, b)), resolution_m);
     group.members.assign(order.begin() + static_cast<std::ptrdiff_t>(a),
                          order.begin() + static_cast<std::ptrdiff_t>(b));
-    b = a;
+    j = from[k][j];
   }
   return groups;
 }
