@@ -1,10 +1,12 @@
 #include "floor/find_spaces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "geometry/polygon.h"
+#include "geometry/segment_grid.h"
 
 namespace gramap {
 namespace {
@@ -48,8 +50,31 @@ HallwayContact stretch(const Polygon& ring, const Vec2& a, const Vec2& along) {
   return contact;
 }
 
-std::optional<HallwayContact> contact_of(const Polygon& outline, const std::vector<Hallway>& hallways,
-                                         const std::vector<Vec2>& doors, const FindSpacesOptions& options) {
+/// What rooms are beside: hallways and the box in which a room's edge can be beside one, doors by their
+/// place.
+struct Surroundings {
+  const std::vector<Hallway>& hallways;
+  std::vector<Eigen::AlignedBox2d> beside;  ///< by hallway
+  const std::vector<Vec2>& doors;
+  SegmentGrid door_grid;
+
+  Surroundings(const std::vector<Hallway>& all_hallways, const std::vector<Vec2>& all_doors,
+               const FindSpacesOptions& options)
+      : hallways(all_hallways), doors(all_doors) {
+    for (const Hallway& hallway : hallways) {
+      Eigen::AlignedBox2d& box = beside.emplace_back();
+      for (const Vec2& point : hallway.outline) box.extend(point);
+      // An edge askew by the most that is allowed comes nearer than its middle is.
+      const double margin_m =
+          std::max(options.reach_m, options.interior_lap_m) + options.parallel_rad * box.diagonal().norm();
+      if (!box.isEmpty()) box = {Vec2(box.min().array() - margin_m), Vec2(box.max().array() + margin_m)};
+    }
+    for (const Vec2& door : doors) door_grid.add(door, door);
+  }
+};
+
+std::optional<HallwayContact> contact_of(const Polygon& outline, const Surroundings& around,
+                                         const FindSpacesOptions& options) {
   const Polygon ring = simplified(outline, 0.05);
   std::optional<HallwayContact> best;
   double best_score = 0;
@@ -59,10 +84,14 @@ std::optional<HallwayContact> contact_of(const Polygon& outline, const std::vect
     if (length < 0.3) continue;
     const Vec2 along = (b - a) / length;
     bool has_door = false;
-    for (const Vec2& door : doors)
-      has_door = has_door || distance_to_segment(door, a, b) < options.reach_m / 2;
-    for (std::size_t h = 0; h < hallways.size(); ++h) {
-      const double shared = shared_length(a, along, length, hallways[h].outline, options);
+    for (const int door : around.door_grid.near(a, b, options.reach_m))
+      has_door = has_door || distance_to_segment(around.doors[static_cast<std::size_t>(door)], a, b) <
+                                 options.reach_m / 2;
+    Eigen::AlignedBox2d edge(a);
+    edge.extend(b);
+    for (std::size_t h = 0; h < around.hallways.size(); ++h) {
+      if (!around.beside[h].intersects(edge)) continue;
+      const double shared = shared_length(a, along, length, around.hallways[h].outline, options);
       if (shared < std::min(options.overlap_m, 0.8 * length)) continue;
       const double score = shared + (has_door ? 1000 : 0);
       if (score <= best_score) continue;
@@ -162,9 +191,10 @@ std::vector<HallwayContact> hallway_contacts(const std::vector<Hallway>& hallway
                                              const std::vector<TrueRoom>& rooms,
                                              const std::vector<Vec2>& doors,
                                              const FindSpacesOptions& options) {
+  const Surroundings around(hallways, doors, options);
   std::vector<HallwayContact> contacts;
   for (std::size_t i = 0; i < rooms.size(); ++i) {
-    std::optional<HallwayContact> contact = contact_of(rooms[i].outline, hallways, doors, options);
+    std::optional<HallwayContact> contact = contact_of(rooms[i].outline, around, options);
     if (!contact || (contact->end - contact->start).norm() < 0.5) continue;
     contact->room = static_cast<int>(i);
     contacts.push_back(*contact);
@@ -177,10 +207,13 @@ std::vector<std::vector<HallwayContact>> contact_rows(const std::vector<HallwayC
   const int count = static_cast<int>(contacts.size());
   const auto at = [&](int i) -> const HallwayContact& { return contacts[static_cast<std::size_t>(i)]; };
   std::vector<int> next(contacts.size(), -1), previous(contacts.size(), -1);
+  SegmentGrid starts;
+  for (const HallwayContact& contact : contacts) starts.add(contact.start, contact.start);
+  const double reach_m = options.step_m + std::max(options.interior_gap_m, options.interior_lap_m);
   for (int i = 0; i < count; ++i) {
     double nearest = 1e300;
     int found = -1;
-    for (int j = 0; j < count; ++j) {
+    for (const int j : starts.near(at(i).end, at(i).end, reach_m)) {
       if (j == i || previous[static_cast<std::size_t>(j)] >= 0 || !follows(at(j), at(i), options)) continue;
       const double distance = (at(j).start - at(i).end).norm();
       if (distance >= nearest) continue;

@@ -1,8 +1,10 @@
 #include "floor/known_rows.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <unordered_map>
 
 #include "floor/find_spaces.h"
 #include "geometry/polygon.h"
@@ -12,6 +14,21 @@ namespace gramap {
 namespace {
 
 /// A room as it lies along the reference line.
+/// What the truth says of things in rooms, by the rooms' ids.
+struct Contents {
+  std::unordered_map<std::string, std::vector<const TrueOpening*>> openings;
+  std::unordered_map<std::string, std::vector<const TrueFurniture*>> furniture;
+  bool doors_known = false;
+
+  explicit Contents(const FloorTruth& truth) {
+    for (const TrueOpening& opening : truth.openings) {
+      openings[opening.room].push_back(&opening);
+      doors_known = doors_known || opening.kind == "door";
+    }
+    for (const TrueFurniture& piece : truth.furniture) furniture[piece.room].push_back(&piece);
+  }
+};
+
 struct Lying {
   const TrueRoom* room = nullptr;
   double start_m = 0, end_m = 0;   ///< at the hallway
@@ -28,8 +45,11 @@ struct Frame {
 std::vector<Lying> rooms_along(const Space& space, const Frame& frame,
                                const std::vector<const TrueRoom*>& rooms) {
   std::vector<Lying> lying;
+  Eigen::AlignedBox2d bounds;
+  for (const Vec2& point : space.outline) bounds.extend(point);
   for (const TrueRoom* room : rooms) {
     const Vec2 centre = centroid(room->outline);
+    if (bounds.exteriorDistance(centre) > 0.31) continue;
     if (!contains(space.outline, centre) && distance_to_border(space.outline, centre) > 0.3) continue;
     Lying item{room, 1e300, -1e300, 1e300, -1e300};
     for (const Vec2& point : room->outline) {
@@ -50,10 +70,10 @@ std::vector<Lying> rooms_along(const Space& space, const Frame& frame,
   return lying;
 }
 
-void add_openings(const FloorTruth& truth, const Frame& frame, const Lying& item, double start_m,
-                  KnownRoom& room) {
-  for (const TrueOpening& opening : truth.openings) {
-    if (opening.room != item.room->id) continue;
+void add_openings(const std::vector<const TrueOpening*>& openings, const Frame& frame, const Lying& item,
+                  double start_m, KnownRoom& room) {
+  for (const TrueOpening* given : openings) {
+    const TrueOpening& opening = *given;
     const Vec2 a = frame.local(opening.a), b = frame.local(opening.b), middle = (a + b) / 2;
     if (std::abs(a.y() - b.y()) > 0.3) continue;  // in a side wall
     const double half = std::max(opening.width_m, (a - b).norm()) / 2;
@@ -63,19 +83,15 @@ void add_openings(const FloorTruth& truth, const Frame& frame, const Lying& item
     if (opening.kind == "window" && middle.y() > (item.front_m + item.back_m) / 2)
       room.windows.push_back({middle.x() - start_m, 2 * half, opening.sill_m, opening.head_m});
   }
-  for (const TrueFurniture& piece : truth.furniture)
-    if (piece.room == item.room->id) room.furniture.push_back(piece.type);
 }
 
 /// The row from lying[first] to lying[last - 1].
 KnownRow make_row(const std::vector<Lying>& lying, std::size_t first, std::size_t last, const Space& space,
-                  const Frame& frame, const FloorTruth& truth, double wall_m, bool whole) {
+                  const Frame& frame, const Contents& contents, double wall_m, bool whole) {
   KnownRow row;
   row.space = space.id;
   row.hallway = space.hallway;
   row.whole = whole;
-  const bool doors_known = std::any_of(truth.openings.begin(), truth.openings.end(),
-                                       [](const TrueOpening& opening) { return opening.kind == "door"; });
   const double length = (space.end - space.start).norm();
   const double row_start = whole ? 0 : lying[first].start_m;
   const double row_end = whole ? length : lying[last - 1].end_m;
@@ -87,8 +103,11 @@ KnownRow make_row(const std::vector<Lying>& lying, std::size_t first, std::size_
     room.type = lying[i].room->type;
     room.width_m = middle - wall_m / 2 - start;
     room.depth_m = lying[i].back_m - lying[i].front_m;
-    room.doors_known = doors_known;
-    add_openings(truth, frame, lying[i], start, room);
+    room.doors_known = contents.doors_known;
+    if (const auto found = contents.openings.find(room.id); found != contents.openings.end())
+      add_openings(found->second, frame, lying[i], start, room);
+    if (const auto found = contents.furniture.find(room.id); found != contents.furniture.end())
+      for (const TrueFurniture* piece : found->second) room.furniture.push_back(piece->type);
     row.rooms.push_back(std::move(room));
     start = middle + wall_m / 2;
   }
@@ -96,7 +115,7 @@ KnownRow make_row(const std::vector<Lying>& lying, std::size_t first, std::size_
   return row;
 }
 
-void add_rows(const Space& space, const std::vector<const TrueRoom*>& rooms, const FloorTruth& truth,
+void add_rows(const Space& space, const std::vector<const TrueRoom*>& rooms, const Contents& contents,
               double wall_m, std::vector<KnownRow>& rows) {
   const Frame frame(space);
   std::vector<Lying> lying = rooms_along(space, frame, rooms);
@@ -117,7 +136,7 @@ void add_rows(const Space& space, const std::vector<const TrueRoom*>& rooms, con
   cuts.push_back(lying.size());
   const bool whole = cuts.size() == 2 && lying.front().start_m < 0.6 && lying.back().end_m > length - 0.6;
   for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-    KnownRow row = make_row(lying, cuts[c], cuts[c + 1], space, frame, truth, wall_m, whole);
+    KnownRow row = make_row(lying, cuts[c], cuts[c + 1], space, frame, contents, wall_m, whole);
     const bool sound =
         std::all_of(row.rooms.begin(), row.rooms.end(), [](const KnownRoom& r) { return r.width_m > 0.3; });
     if (sound) rows.push_back(std::move(row));
@@ -154,7 +173,9 @@ std::vector<KnownRow> known_rows(const FloorGroundTruth& floor, const FloorTruth
   for (const TrueRoom& room : truth.rooms)
     if (!given.contains(room.id) && room.type != "Hallway") rooms.push_back(&room);
   std::vector<KnownRow> rows;
-  for (const Space& space : spaces_of(floor, truth, rooms)) add_rows(space, rooms, truth, inner_wall_m, rows);
+  const Contents contents(truth);
+  for (const Space& space : spaces_of(floor, truth, rooms))
+    add_rows(space, rooms, contents, inner_wall_m, rows);
   for (KnownRow& row : rows) row.floor = floor.name;
   return rows;
 }

@@ -9,6 +9,7 @@
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <map>
@@ -56,19 +57,8 @@ Point exact(const std::vector<Polygon>& rings, const PointOnRing& point) {
   return p + Kernel::FT(point.t) * (q - p);
 }
 
-/// A ring and its bounds, to ask quickly whether it holds a point.
-struct RingTest {
-  std::vector<Point> points;
-  CGAL::Bbox_2 box;
-
-  explicit RingTest(const Polygon& ring) {
-    for (const Vec2& p : ring) points.push_back(exact(p)), box += points.back().bbox();
-  }
-  bool holds(const Point& p) const {
-    return CGAL::do_overlap(box, p.bbox()) &&
-           CGAL::bounded_side_2(points.begin(), points.end(), p, Kernel()) == CGAL::ON_BOUNDED_SIDE;
-  }
-};
+/// The bounds of a ring or a point, with its number: what holds what is asked only where these overlap.
+using Bounds = CGAL::Box_intersection_d::Box_with_info_d<double, 2, std::size_t>;
 
 class Builder {
  public:
@@ -79,6 +69,7 @@ class Builder {
     insert();
     number_points();
     flood();
+    find_rings();
     sum_areas();
     return std::move(result_);
   }
@@ -119,10 +110,8 @@ class Builder {
     }
   }
 
-  /// Cells: triangles that no constraint separates, each with the rings that hold it.
+  /// Cells: triangles that no constraint separates.
   void flood() {
-    std::vector<RingTest> tests;
-    for (const Polygon& ring : rings_) tests.emplace_back(ring);
     for (const auto face : triangulation_.all_face_handles()) face->info() = -1;
     for (const auto start : triangulation_.finite_face_handles()) {
       if (start->info() >= 0) continue;
@@ -140,12 +129,12 @@ class Builder {
           next->info() = 1;
           faces.push_back(next);
         }
-      if (!reaches_infinity) add_cell(faces, tests);
+      if (!reaches_infinity) add_cell(faces);
     }
   }
 
-  void add_cell(const std::vector<Triangulation::Face_handle>& faces, const std::vector<RingTest>& tests) {
-    Overlay::Cell cell;
+  void add_cell(const std::vector<Triangulation::Face_handle>& faces) {
+    Overlay::Cell& cell = result_.cells.emplace_back();
     double largest = -1;
     Triangulation::Face_handle inner;
     Rational twice = 0;
@@ -164,10 +153,36 @@ class Builder {
     const Point inside =
         CGAL::centroid(triangulation_.triangle(cell.triangles.empty() ? faces.front() : inner));
     cell.inside = {CGAL::to_double(inside.x()), CGAL::to_double(inside.y())};
-    for (int ring = 0; ring < static_cast<int>(tests.size()); ++ring)
-      if (tests[ring].holds(inside)) cell.rings.push_back(ring);
-    for (const int ring : cell.rings) tiled_[ring] += twice;
-    if (!cell.rings.empty() && !cell.triangles.empty()) result_.cells.push_back(std::move(cell));
+    inside_.push_back(inside);
+    twice_area_.push_back(std::move(twice));
+  }
+
+  /// The rings that hold each cell. Cells that none holds are dropped.
+  void find_rings() {
+    std::vector<std::vector<Point>> rings;
+    std::vector<Bounds> ring_bounds, point_bounds;
+    for (const Polygon& ring : rings_) {
+      CGAL::Bbox_2 box;
+      std::vector<Point>& points = rings.emplace_back();
+      for (const Vec2& p : ring) points.push_back(exact(p)), box += points.back().bbox();
+      ring_bounds.emplace_back(box, rings.size() - 1);
+    }
+    for (std::size_t cell = 0; cell < inside_.size(); ++cell)
+      point_bounds.emplace_back(inside_[cell].bbox(), cell);
+    CGAL::box_intersection_d(ring_bounds.begin(), ring_bounds.end(), point_bounds.begin(), point_bounds.end(),
+                             [&](const Bounds& ring, const Bounds& point) {
+                               const std::vector<Point>& points = rings[ring.info()];
+                               if (CGAL::bounded_side_2(points.begin(), points.end(), inside_[point.info()],
+                                                        Kernel()) == CGAL::ON_BOUNDED_SIDE)
+                                 result_.cells[point.info()].rings.push_back(static_cast<int>(ring.info()));
+                             });
+    for (std::size_t i = 0; i < result_.cells.size(); ++i) {
+      std::vector<int>& held_by = result_.cells[i].rings;
+      std::sort(held_by.begin(), held_by.end());
+      for (const int ring : held_by) tiled_[ring] += twice_area_[i];
+    }
+    std::erase_if(result_.cells,
+                  [](const Overlay::Cell& cell) { return cell.rings.empty() || cell.triangles.empty(); });
   }
 
   void sum_areas() {
@@ -185,9 +200,11 @@ class Builder {
   const std::vector<Polygon>& rings_;
   const std::vector<Cut>& cuts_;
   Triangulation triangulation_;
-  std::vector<ExactPoint> exact_;  ///< by the triangulation's vertex
-  std::vector<int> number_;        ///< likewise: the point that it is in the result
-  std::vector<Rational> tiled_;    ///< by ring: twice the area of its cells
+  std::vector<ExactPoint> exact_;     ///< by the triangulation's vertex
+  std::vector<int> number_;           ///< likewise: the point that it is in the result
+  std::vector<Point> inside_;         ///< by cell, as it is found: a point in it
+  std::vector<Rational> twice_area_;  ///< likewise
+  std::vector<Rational> tiled_;       ///< by ring: twice the area of its cells
   Overlay result_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gramap {
 
@@ -20,6 +21,12 @@ void SegmentGrid::add(const Vec2& a, const Vec2& b) {
 
 std::vector<int> SegmentGrid::near(const Vec2& a, const Vec2& b, double margin_m) const {
   std::vector<int> found;
+  const Vec2 cells = ((a - b).cwiseAbs().array() + 2 * margin_m) / cell_m_;
+  if (!(cells.x() * cells.y() < 1e6)) {  // a box that large is not worth walking through
+    found.resize(static_cast<std::size_t>(size_));
+    std::iota(found.begin(), found.end(), 0);
+    return found;
+  }
   visit_cells(a, b, margin_m, [&](long long key) {
     if (const auto cell = cells_.find(key); cell != cells_.end())
       found.insert(found.end(), cell->second.begin(), cell->second.end());

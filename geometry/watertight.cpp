@@ -1,6 +1,7 @@
 #include "geometry/watertight.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
@@ -111,28 +112,21 @@ class Check {
   }
 
   void self_intersections() {
-    struct Box {
-      Vec3 low, high;
-      int triangle;
-    };
+    using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
     std::vector<Box> boxes;
-    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
-      boxes.push_back({point(t, 0).cwiseMin(point(t, 1)).cwiseMin(point(t, 2)),
-                       point(t, 0).cwiseMax(point(t, 1)).cwiseMax(point(t, 2)), t});
-    // Sweep along the longest extent.
-    Vec3 low = Vec3::Constant(1e300), high = -low;
-    for (const Box& b : boxes) low = low.cwiseMin(b.low), high = high.cwiseMax(b.high);
-    int axis = 0;
-    (high - low).maxCoeff(&axis);
-    std::sort(boxes.begin(), boxes.end(), [axis](const Box& a, const Box& b) {
-      return std::tie(a.low[axis], a.triangle) < std::tie(b.low[axis], b.triangle);
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
+      // The search divides the last dimension first: heights, of which there are few, must not come last.
+      const Vec3 low = point(t, 0).cwiseMin(point(t, 1)).cwiseMin(point(t, 2));
+      const Vec3 high = point(t, 0).cwiseMax(point(t, 1)).cwiseMax(point(t, 2));
+      double from[] = {low.z(), low.x(), low.y()}, to[] = {high.z(), high.x(), high.y()};
+      boxes.emplace_back(from, to, t);
+    }
+    std::vector<int> found;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+      if (intersect(a.info(), b.info())) found.push_back(std::min(a.info(), b.info()));
     });
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].low[axis] <= boxes[i].high[axis]; ++j)
-        if ((boxes[i].low.array() <= boxes[j].high.array()).all() &&
-            (boxes[j].low.array() <= boxes[i].high.array()).all() &&
-            intersect(boxes[i].triangle, boxes[j].triangle))
-          fault(MeshFault::Kind::self_intersection, point(boxes[i].triangle, 0));
+    std::sort(found.begin(), found.end());
+    for (const int triangle : found) fault(MeshFault::Kind::self_intersection, point(triangle, 0));
   }
 
   /// True when two triangles meet anywhere but in the corners and edges that they share.
