@@ -190,6 +190,23 @@ TEST_CASE("the best grouping is the best of all contiguous groupings") {
   }
 }
 
+TEST_CASE("thousands of lengths are grouped as tens are") {
+  std::mt19937_64 generator(1);
+  std::vector<double> values;
+  for (int i = 0; i < 6000; ++i)
+    values.push_back(2 + static_cast<double>(i % 3) + 0.1 * (uniform(generator) + uniform(generator) - 1));
+  const std::vector<LengthGroup> groups = group_lengths(values, 0.01);
+  REQUIRE(groups.size() == 3);
+  for (int g = 0; g < 3; ++g) {
+    const LengthGroup& group = groups[static_cast<std::size_t>(g)];
+    CHECK(group.members.size() == 2000);
+    CHECK(group.mean_m == doctest::Approx(2.0 + g).epsilon(0.002));
+    CHECK(std::all_of(group.members.begin(), group.members.end(), [&](int i) { return i % 3 == g; }));
+  }
+  // Into more groups than there are different lengths, and as fast.
+  CHECK(group_lengths_into(std::vector<double>(5000, 3.0), 0.01, 4).size() == 4);
+}
+
 TEST_CASE("the axis is found in noise and among stragglers, and not where there is none") {
   int false_axes = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
