@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output_ending.h"
 #include "app/verbs.h"
 #include "floor/fitted_geojson.h"
 #include "floor/floor_of_truth.h"
@@ -71,12 +72,6 @@ std::string written(const std::string& output, const std::vector<FloorModel>& st
 }
 
 int run(const Options& options) {
-  for (const std::string& output : options.outputs) {
-    const std::string type = extension(output);
-    if (type != ".glb" && type != ".gltf" && type != ".svg" && type != ".geojson")
-      throw InputError({output}, "the format '" + type + "' is not known",
-                       "end the name in .glb, .gltf, .svg or .geojson");
-  }
   const auto start = std::chrono::steady_clock::now();
   RunInfo info;
   info.version = GRAMAP_VERSION;
@@ -126,7 +121,8 @@ Verb declare_export(CLI::App& gramap) {
       ->required();
   verb->add_option("-o,--output", options->outputs,
                    "What to write, by its ending; may be given several times")
-      ->required();
+      ->required()
+      ->check(ending_in({".glb", ".gltf", ".svg", ".geojson"}));
   verb->add_flag(
       "--confidence", options->gltf.confidence_colours,
       "Colour the rooms' floors by the standard deviation of their widths, green 1 cm to red 50 cm");

@@ -7,6 +7,7 @@
 
 #include "app/fit_building.h"
 #include "app/fit_inputs.h"
+#include "app/output_ending.h"
 #include "app/verbs.h"
 #include "floor/gltf.h"
 #include "floor/model.h"
@@ -67,7 +68,9 @@ int run(const Options& options) {
         "gramap: the scans show that the rooms of a space are as wide as one another, to %.0f %%, more "
         "so than the rules say: others are expected to be, too (--likeness 0: as the rules say)\n",
         100 * fitted.likeness);
-  write_file(options.output, to_glb(model, run_info(options, fitted)));
+  const RunInfo info = run_info(options, fitted);
+  write_file(options.output,
+             options.output.ends_with(".gltf") ? to_gltf({model}, info) : to_glb(model, info));
   for (const SetAsideInput& aside : set_aside)
     std::fprintf(stderr, "gramap: warning: %s was set aside: %s\n", aside.what.c_str(), aside.reason.c_str());
   if (!options.inputs.quiet) std::fprintf(stderr, "gramap: wrote %s\n", options.output.c_str());
@@ -84,8 +87,10 @@ Verb declare_fit(CLI::App& gramap) {
       "Fit a floor: scans, rules and a floor file in, a complete glTF floor out; a folder of floor folders "
       "becomes one building");
   declare_inputs(*verb, options->inputs);
-  verb->add_option("-o,--output", options->output, "The model to write (.glb); - for standard output")
-      ->required();
+  verb->add_option("-o,--output", options->output,
+                   "The model to write (.glb or .gltf); - for standard output, as .glb")
+      ->required()
+      ->check(ending_in({".glb", ".gltf", ""}));
   verb->add_option("--alternatives", options->inputs.fit.space.alternatives,
                    "How many next best layouts of each space to keep in the model")
       ->capture_default_str()

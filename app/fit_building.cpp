@@ -16,6 +16,7 @@
 #include "floor/verify.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
+#include "geometry/say.h"
 #include "version.h"
 
 namespace gramap {
@@ -167,11 +168,14 @@ int fit_building(const BuildingFitOptions& options) {
     return kDefect;
   }
   for (const std::string& remark : check_cores(floors)) std::fprintf(out, "note: %s\n", remark.c_str());
-  write_file(options.output, to_glb(models, run_info(options, standing)));
+  const RunInfo info = run_info(options, standing);
+  write_file(options.output,
+             options.output.ends_with(".gltf") ? to_gltf(models, info) : to_glb(models, info));
   for (const SetAsideInput& aside : set_aside)
     std::fprintf(stderr, "gramap: warning: %s was set aside: %s\n", aside.what.c_str(), aside.reason.c_str());
   if (!options.inputs.quiet)
-    std::fprintf(stderr, "gramap: wrote %s, %zu floors\n", options.output.c_str(), models.size());
+    std::fprintf(stderr, "gramap: wrote %s, %s\n", options.output.c_str(),
+                 said_count(models.size(), "floor").c_str());
   return set_aside.empty() ? kDone : kSetAside;
 }
 

@@ -37,6 +37,14 @@ fs::path scans_folder(const FitInputOptions& options) {
   return beside;
 }
 
+/// Scans to perceive; otherwise only what an earlier run perceived.
+bool holds_folders(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_directory(error)) return true;
+  return false;
+}
+
 }  // namespace
 
 void declare_inputs(CLI::App& verb, FitInputOptions& options) {
@@ -123,7 +131,7 @@ FitInputs read_inputs(const FitInputOptions& options) {
     if (!options.quiet) std::fprintf(stderr, "gramap: %s\n", sentence.c_str());
   const fs::path scans = scans_folder(options);
   if (!scans.empty()) {
-    Progress progress("perceiving rooms", options.quiet);
+    Progress progress(holds_folders(scans) ? "perceiving rooms" : "reading observations", options.quiet);
     PerceivedFolder perceived =
         perceive_folder(scans, options.without, options.perception,
                         [&](const std::string& room, std::size_t rooms) { progress.step(room, rooms); });

@@ -8,6 +8,7 @@
 #include "app/verbs.h"
 #include "floor/known_rows.h"
 #include "geometry/file.h"
+#include "geometry/say.h"
 #include "grammar/learn.h"
 #include "grammar/learn_update.h"
 
@@ -34,8 +35,10 @@ int update(const LearnArguments& arguments, const LearnData& data, bool set_asid
   for (const std::string& rule : updated.left_alone)
     std::fprintf(stderr, "gramap: note: the probability of %s is no plain number and stays as it is\n",
                  rule.c_str());
-  std::fprintf(stderr, "gramap: wrote %d probabilities and %d numbers of widths anew\n",
-               updated.probabilities, updated.widths);
+  std::fprintf(
+      stderr, "gramap: wrote %s and %s anew\n",
+      said_count(static_cast<std::size_t>(updated.probabilities), "probability", "probabilities").c_str(),
+      said_count(static_cast<std::size_t>(updated.widths), "number of widths", "numbers of widths").c_str());
   return updated.unfilled.empty() && !set_aside ? kDone : kSetAside;
 }
 
@@ -49,8 +52,10 @@ int learn(const LearnArguments& arguments) {
   write_file(arguments.output, to_text(rules));
   std::size_t rooms = 0;
   for (const KnownRow& row : rules.data.rows) rooms += row.rooms.size();
-  std::fprintf(stderr, "gramap: learned %zu rules for %zu room types from %zu rooms in %zu spaces\n",
-               rules.rules.size(), rules.types.size(), rooms, rules.data.rows.size());
+  std::fprintf(stderr, "gramap: learned %s for %s from %s in %s\n",
+               said_count(rules.rules.size(), "rule").c_str(),
+               said_count(rules.types.size(), "room type").c_str(), said_count(rooms, "room").c_str(),
+               said_count(rules.data.rows.size(), "space").c_str());
   return set_aside ? kSetAside : kDone;
 }
 

@@ -23,6 +23,7 @@
 #include "floor/ground_truth.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
+#include "geometry/say.h"
 #include "perception/debug.h"
 #include "perception/label_image.h"
 #include "perception/random.h"
@@ -140,12 +141,12 @@ int run(const Options& options) {
         output /= room.room + ".json";
       }
       if (output != "-" || !truth) write_file(output, to_json(room));
-      std::fprintf(stderr,
-                   "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %zu walls, %zu doors "
-                   "and windows, %zu pieces of furniture\n",
+      std::fprintf(stderr, "%s: width %.3f ± %.3f m, depth %.3f ± %.3f m, height %.3f ± %.3f m, %s, %s, %s\n",
                    room.room.c_str(), room.width.value_m, room.width.sigma_m, room.depth.value_m,
-                   room.depth.sigma_m, room.height.value_m, room.height.sigma_m, room.walls.size(),
-                   room.openings.size(), room.furniture.size());
+                   room.depth.sigma_m, room.height.value_m, room.height.sigma_m,
+                   said_count(room.walls.size(), "wall").c_str(),
+                   said_count(room.openings.size(), "door or window", "doors and windows").c_str(),
+                   said_count(room.furniture.size(), "piece of furniture", "pieces of furniture").c_str());
       for (const std::string& remark : room.remarks) std::fprintf(stderr, "  %s\n", remark.c_str());
     } catch (const InputError& error) {
       if (!many) throw;

@@ -19,6 +19,7 @@
 #include "floor/ground_truth.h"
 #include "geometry/error.h"
 #include "geometry/file.h"
+#include "geometry/say.h"
 #include "perception/random_building.h"
 #include "perception/scan.h"
 
@@ -150,7 +151,7 @@ std::vector<std::size_t> chosen_rooms(const Building& building, const std::vecto
     if (names.empty() || wanted.erase(building.rooms[i].id) > 0) chosen.push_back(i);
   }
   if (!wanted.empty())
-    throw InputError({}, "there is no room '" + *wanted.begin() + "' in the truth",
+    throw InputError({file}, "there is no room '" + *wanted.begin() + "' in the truth",
                      "name rooms by the \"id\" of their features");
   return chosen;
 }
@@ -207,9 +208,9 @@ KnownFloor known_floor(const Arguments& arguments) {
 
 int simulate(const Arguments& arguments) {
   auto [floor, truth] = known_floor(arguments);
-  Building building = building_of(truth);
-  if (arguments.clutter > 0) add_clutter(building, truth, arguments);
   const std::string& source = arguments.floor.empty() ? arguments.rules : arguments.floor;
+  Building building = building_of(truth, source);
+  if (arguments.clutter > 0) add_clutter(building, truth, arguments);
   const std::vector<std::size_t> rooms = chosen_rooms(building, arguments.rooms, source);
   const std::filesystem::path out = arguments.out;
   refuse_old_scans(out / "scans");
@@ -233,7 +234,8 @@ int simulate(const Arguments& arguments) {
   }
   write_file(out / "floor.geojson", to_geojson(floor, {}));
   write_file(out / "truth.geojson", to_geojson({}, truth));
-  std::fprintf(stderr, "%zu rooms, %zu points in %s\n", rooms.size(), points, (out / "scans").c_str());
+  std::fprintf(stderr, "%s, %s in %s\n", said_count(rooms.size(), "room").c_str(),
+               said_count(points, "point").c_str(), (out / "scans").c_str());
   return kDone;
 }
 

@@ -188,7 +188,7 @@ Forest trained(const Task& task, const Arguments& arguments, const Material& mat
 /// The scans of a floor whose truth is known, perceived as any other; rooms that cannot be perceived count as
 /// rooms in which nothing was found.
 std::vector<TrainingRoom> perceived_floor(const fs::path& floor) {
-  const Building building = building_of(read_truth(floor));
+  const Building building = building_of(read_truth(floor), floor);
   std::vector<TrainingRoom> rooms(building.rooms.size());
   tbb::parallel_for(std::size_t{0}, rooms.size(), [&](std::size_t i) {
     const BuildingRoom& room = building.rooms[i];

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floor/evaluate.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
@@ -146,7 +147,8 @@ std::string to_text(const Evaluation& evaluation) {
   }
   text += "\nspaces\n";
   for (const SpaceScore& space : evaluation.spaces)
-    text += print("  %-34s %d of %d rooms%s\n", or_dash(space.id), space.rooms, space.true_rooms,
+    text += print("  %-34s %d of %s%s\n", or_dash(space.id), space.rooms,
+                  said_count(static_cast<std::size_t>(space.true_rooms), "room").c_str(),
                   space.in_order ? ", all in order" : ", not all in place");
   text += "widths, metres\n";
   text += summary_line("extracted, before the grammar", evaluation.extracted);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "geometry/error.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
@@ -53,10 +54,10 @@ std::string runner_up(const FittedFloor& floor, const FittedRoom& room) {
         std::abs(other.start_m - room.start_m) < 0.05)
       continue;
     return format(
-        "  runner-up      %s of %.3f m from %.3f m, in a layout of %zu rooms whose score is lower by %.2f "
+        "  runner-up      %s of %.3f m from %.3f m, in a layout of %s whose score is lower by %.2f "
         "(probability %.3g against %.3g)\n",
-        other.type.c_str(), other.width_m, other.start_m, layout.types.size(), space->score - layout.score,
-        layout.probability, space->probability);
+        other.type.c_str(), other.width_m, other.start_m, said_count(layout.types.size(), "room").c_str(),
+        space->score - layout.score, layout.probability, space->probability);
   }
   return format(
       "  runner-up      all %zu next best layouts of the space have this room too; the first scores lower by "

@@ -1,4 +1,5 @@
 #include "floor/room_table.h"
+#include "geometry/say.h"
 
 #include <algorithm>
 #include <cstdarg>
@@ -64,12 +65,13 @@ std::string room_table(const FittedFloor& floor) {
   std::string text = aligned(rows, {false, false, false, false, true, true, true, true, true, false});
   for (const FittedSpace& space : floor.spaces) {
     double sum = 0;
-    int rooms = 0;
+    std::size_t rooms = 0;
     for (const FittedRoom& room : floor.rooms)
       if (room.space == space.id) sum += room.width_m, ++rooms;
-    text += "space " + space.id + ": " + std::to_string(rooms) + " rooms " + format("%.3f m", sum) + " + " +
-            std::to_string(std::max(0, rooms - 1)) + " walls " +
-            format("%.3f m", std::max(0, rooms - 1) * floor.inner_wall_m) + " = " +
+    const std::size_t walls = rooms > 0 ? rooms - 1 : 0;
+    text += "space " + space.id + ": " + said_count(rooms, "room") + " " + format("%.3f m", sum) + " + " +
+            said_count(walls, "wall") + " " +
+            format("%.3f m", static_cast<double>(walls) * floor.inner_wall_m) + " = " +
             format("%.3f m", space.length_m) + "\n";
   }
   for (const std::string& remark : floor.floor.remarks) text += "note: " + remark + "\n";

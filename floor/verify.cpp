@@ -10,6 +10,7 @@
 
 #include "floor/reachable.h"
 #include "geometry/polygon.h"
+#include "geometry/say.h"
 #include "geometry/watertight.h"
 
 namespace gramap {
@@ -174,20 +175,22 @@ std::string to_text(const VerifyReport& report) {
                      " + fixed " + number(t.fixed_m2, 2) + " + walls " + number(t.walls_m2, 2) +
                      (t.area_exact ? " = outline " : ", not the outline's ") + number(t.outline_m2, 2) +
                      " m²" + (t.area_exact ? " exactly\n" : "\n");
-  char line[240];
-  std::snprintf(line, sizeof line,
-                "parts: %d rooms, %d hallways, %d fixed rooms, %d walls, %d junctions, %d doors, %d windows, "
-                "%d pieces of "
-                "furniture\n",
-                t.rooms, t.hallways, t.fixed, t.walls, t.junctions, t.doors, t.windows, t.furniture);
-  text += line;
-  text += std::to_string(t.solids()) + " solids (";
+  const auto said = [](int count, const char* one, const char* many = "") {
+    return said_count(static_cast<std::size_t>(count), one, many);
+  };
+  text += "parts: " + said(t.rooms, "room") + ", " + said(t.hallways, "hallway") + ", " +
+          said(t.fixed, "fixed room") + ", " + said(t.walls, "wall") + ", " + said(t.junctions, "junction") +
+          ", " + said(t.doors, "door") + ", " + said(t.windows, "window") + ", " +
+          said(t.furniture, "piece of furniture", "pieces of furniture") + "\n";
+  text += said(static_cast<int>(t.solids()), "solid") + " (";
   const char* comma = "";
-  for (const auto& [count, what] :
-       {std::pair(t.slabs, t.slabs == 1 ? "slab" : "slabs"), std::pair(t.wall_solids, "walls and junctions"),
-        std::pair(t.room_volumes, "room volumes"), std::pair(t.opening_parts, "parts of doors and windows"),
-        std::pair(t.furniture_parts, "parts of furniture")})
-    if (count > 0) text += std::exchange(comma, ", ") + std::to_string(count) + " " + what;
+  for (const auto& [count, one, many] :
+       {std::tuple(t.slabs, "slab", "slabs"),
+        std::tuple(t.wall_solids, "wall or junction", "walls and junctions"),
+        std::tuple(t.room_volumes, "room volume", "room volumes"),
+        std::tuple(t.opening_parts, "part of doors and windows", "parts of doors and windows"),
+        std::tuple(t.furniture_parts, "part of furniture", "parts of furniture")})
+    if (count > 0) text += std::exchange(comma, ", ") + said(static_cast<int>(count), one, many);
   text += "), " + std::to_string(t.triangles) + " triangles: " +
           (report.ok() ? "closed, 2-manifold, outward, free of self-intersection\n" : "with faults\n");
   const auto add = [&text](const char* label, const std::vector<VerifyFault>& list) {

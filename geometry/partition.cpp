@@ -97,6 +97,35 @@ class Builder {
     return std::move(result_);
   }
 
+  /// After build(): where all that is wrong with the plan are overlaps within `input.rounding_m`, takes them
+  /// from the later room of each two in `rooms`. False when that is not so or cannot be done.
+  bool give_way(std::vector<Polygon>& rooms) const {
+    std::map<int, std::set<std::size_t>> lost;  // by room: what it loses of the overlay's cells
+    for (std::size_t i = 0; i < overlay_.cells.size(); ++i) {
+      const Overlay::Cell& cell = overlay_.cells[i];
+      const auto first = std::lower_bound(cell.rings.begin(), cell.rings.end(), first_room_);
+      if (cell.rings.end() - first < 2) continue;
+      Polygon points;
+      for (const Triangle& t : cell.triangles)
+        for (const int p : t) points.push_back(overlay_.points[p]);
+      if (oriented_box(points).breadth_m > input_.rounding_m) return false;
+      for (auto ring = first + 1; ring != cell.rings.end(); ++ring) lost[*ring - first_room_].insert(i);
+    }
+    for (const auto& [room, cells] : lost) {
+      std::vector<Triangle> kept;
+      for (std::size_t i = 0; i < overlay_.cells.size(); ++i) {
+        const Overlay::Cell& cell = overlay_.cells[i];
+        if (!cells.contains(i) &&
+            std::binary_search(cell.rings.begin(), cell.rings.end(), first_room_ + room))
+          kept.insert(kept.end(), cell.triangles.begin(), cell.triangles.end());
+      }
+      const std::vector<Polygon> rings = border(overlay_.points, kept);
+      if (rings.size() != 1) return false;
+      rooms[room] = simplified(rings.front(), 1e-7);  // without the ends of cuts
+    }
+    return !lost.empty();
+  }
+
  private:
   void fault(PlanFault::Kind kind, int a, int b, const Vec2& at, double area_m2) {
     result_.faults.push_back({kind, a, b, at, area_m2});
@@ -344,7 +373,15 @@ class Builder {
 }  // namespace
 
 Partition partition(const PlanInput& input) {
-  return Builder(input).build();
+  PlanInput plan = input;
+  for (int round = 0;; ++round) {
+    Builder builder(plan);
+    Partition result = builder.build();
+    // What gives way is rounded, too, and may overlap anew, by less.
+    std::vector<Polygon> rooms = plan.rooms;
+    if (result.faults.empty() || round == 3 || !builder.give_way(rooms)) return result;
+    plan.rooms = std::move(rooms);
+  }
 }
 
 std::vector<Polygon> outline_around(const std::vector<Polygon>& rooms, double wall_m) {

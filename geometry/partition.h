@@ -31,6 +31,8 @@ struct PlanInput {
   std::vector<PlanOpening> openings;
   /// Points nearer than this to another ring's corner or edge are put onto it (the outline stays).
   double weld_m = 1e-4;
+  /// Rooms that overlap by no more than this abut: plans are rounded so. The later of the two gives way.
+  double rounding_m = 1e-3;
   /// Faces farther apart than this have no wall between them, but solid mass.
   double thickest_wall_m = 1.2;
 };

@@ -8,6 +8,7 @@
 
 #include "geometry/error.h"
 #include "geometry/polygon.h"
+#include "geometry/say.h"
 #include "perception/door_gaps.h"
 #include "perception/hidden_walls.h"
 #include "perception/level.h"
@@ -62,10 +63,9 @@ void run_stages(Perception& found, const std::string& room, const PerceptionOpti
   stages.end("outline");
   if (found.outline.ring.size() < 3) {
     char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "no room was found around the scanners: %zu planes, %zu of them walls that reach the ceiling",
-        found.planes.size(), found.walls.size());
+    std::snprintf(text, sizeof text,
+                  "no room was found around the scanners: of %s, %zu reach the ceiling as walls",
+                  said_count(found.planes.size(), "plane").c_str(), found.walls.size());
     throw InputError({room}, text, "scan every wall of the room, up to the ceiling");
   }
   const MeasuredRoom measured =

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/error.h"
+#include "geometry/say.h"
 
 namespace gramap {
 namespace {
@@ -79,8 +80,8 @@ Storey find_storey(const std::vector<PlanePatch>& planes, const RegisteredCloud&
   }
   const auto fail = [&](const char* what, std::size_t candidates) {
     char text[200];
-    std::snprintf(text, sizeof text, "no %s was found: of %zu planes, %zu lie level %s the scanners", what,
-                  planes.size(), candidates, *what == 'f' ? "under" : "above");
+    std::snprintf(text, sizeof text, "no %s was found: of %s, %zu lie level %s the scanners", what,
+                  said_count(planes.size(), "plane").c_str(), candidates, *what == 'f' ? "under" : "above");
     throw InputError({room}, text,
                      "scan the room's floor and ceiling too; if the scan's up is y, say --up y");
   };

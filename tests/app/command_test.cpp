@@ -241,6 +241,25 @@ TEST_CASE("an output folder that is not there, and an output that is a folder: e
   }
 }
 
+TEST_CASE("a name that ends as no format that the verb writes is wrong usage; fit writes .gltf as text") {
+  const Project project;
+  for (const char* ending : {".geojson", ".obj", ".GLB"}) {
+    const std::string output = project.model().string() + ending;
+    const auto result = project.run(project.fit_arguments(output));
+    CHECK_MESSAGE(result.code == 2, result.error);
+    CHECK(has(result.error, ".glb, .gltf"));
+    CHECK_FALSE(fs::exists(output));
+  }
+  const auto exported = project.run("export '" + project.office().string() + "' -o '" +
+                                    (project.folder() / "model.obj").string() + "'");
+  CHECK(exported.code == 2);
+  CHECK(has(exported.error, ".glb, .gltf, .svg, .geojson"));
+  const std::string text = (project.folder() / "model.gltf").string();
+  CHECK(project.run(project.fit_arguments(text) + "-q").code == 0);
+  CHECK(read_file(text).front() == '{');
+  CHECK(project.run("verify '" + text + "'").code == 0);
+}
+
 TEST_CASE("plan names rooms that nobody scanned") {
   const Project project;
   const auto result = project.run("plan '" + project.office().string() + "' --rules '" +

@@ -66,7 +66,7 @@ TEST_CASE("what a plan's reader sets aside is said by learn and evaluate, and th
   CHECK(has(learned.error,
             "gramap: warning: plan level 0: plan.geojson feature 8 ('bad') was set aside: it has no "
             "geometry\n"));
-  CHECK(has(learned.error, "from 6 rooms in 1 spaces"));
+  CHECK(has(learned.error, "from 6 rooms in 1 space"));
   const auto checked = project.run("check '" + rules.string() + "'");
   CHECK(checked.code == 0);
   CHECK(checked.error.empty());

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -181,6 +183,32 @@ TEST_CASE("rooms that nearly touch share their points") {
   CHECK(areas_exact(plan));
   CHECK(
       std::none_of(plan.cells.begin(), plan.cells.end(), [](const PlanCell& c) { return c.area_m2 < 1e-3; }));
+}
+
+TEST_CASE("rooms that overlap by less than plans are rounded by abut, at any angle") {
+  for (const double angle : {0.0, 0.3, 1.1})
+    for (const double lap : {2e-4, 9e-4, 2e-3}) {
+      CAPTURE(angle);
+      CAPTURE(lap);
+      // Along a side, with a corner of one within a side of the other; and corner over corner.
+      PlanInput input;
+      input.outline = {rectangle(0, 0, 10, 8)};
+      input.rooms = {rectangle(0.3, 0.3, 5, 4.7), rectangle(5 - lap, 0.3, 9.7, 3.7),
+                     rectangle(5 - lap, 4.7 - lap, 9.7, 7.7)};
+      const Eigen::Rotation2Dd turn(angle);
+      for (std::vector<Polygon>* rings : {&input.outline, &input.rooms})
+        for (Polygon& ring : *rings)
+          for (Vec2& p : ring) p = turn * p;
+      const Partition plan = partition(input);
+      CHECK(plan.faults.empty() == (lap < 1e-3));
+      CHECK(plan.exact == (lap < 1e-3));
+      if (lap > 1e-3) continue;
+      CHECK(areas_exact(plan));
+      CHECK(plan.rooms_area_m2 ==
+            doctest::Approx(4.7 * 4.4 + 4.7 * 3.4 + (4.7 + lap) * (3 + lap) - lap * lap).epsilon(1e-9));
+      CHECK(std::none_of(plan.cells.begin(), plan.cells.end(),
+                         [](const PlanCell& c) { return c.kind == PlanCell::Kind::room && c.area_m2 < 1; }));
+    }
 }
 
 TEST_CASE("an outline around rooms") {
