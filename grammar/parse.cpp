@@ -1,6 +1,8 @@
 // The language's grammar, in Spirit X3 over tokens; the only file that includes it. rules/reference.md shows
 // the same productions as EBNF.
 #include <boost/spirit/home/x3.hpp>
+#include <cmath>
+#include <cstdio>
 #include <string_view>
 
 #include "grammar/keywords.h"
@@ -40,6 +42,26 @@ const char* const kStatementAdvice =
     "a statement begins with `grammar`, `let`, `wall`, `height`, `room`, `start`, `after`, `background`, "
     "`hallways`, or with a rule's name and `:`";
 
+constexpr std::string_view kBetweenStatements[] = {";", "{", "}"};
+
+/// A length given as `a .. b`: as the mean and standard deviation by which 95 of 100 lie there.
+std::string advice_on_range(Iterator where, Iterator statement) {
+  const Token &low = *(where - 2), &low_unit = *(where - 1);
+  std::string example = "4.50 m +- 1.50 m";
+  const bool is_plain = where - statement == 3 && low.kind == Token::Kind::number &&
+                        (where + 1)->kind == Token::Kind::number && (where + 2)->text == low_unit.text &&
+                        low_unit.text.size() < 8;
+  if (is_plain) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%.4g %s +- %.4g %s", (low.number + (where + 1)->number) / 2,
+                  low_unit.text.c_str(), std::abs((where + 1)->number - low.number) / 4,
+                  low_unit.text.c_str());
+    example = text;
+  }
+  return "a length is a mean and its standard deviation, not a range: `" + statement->text + " " + example +
+         "`";
+}
+
 /// What to write instead, for the mistakes that newcomers make.
 std::string advice(Iterator where, Iterator statement, const std::string& which) {
   const Token& token = *where;
@@ -62,6 +84,7 @@ std::string advice(Iterator where, Iterator statement, const std::string& which)
     const bool two_names = statement->text == "grammar" && where == statement + 2 && !token.starts_line &&
                            token.kind == Token::Kind::name;
     if (two_names) return "a name is one word: `" + (where - 1)->text + "_" + token.text + "`";
+    if (token.text == ".." && where - statement >= 2) return advice_on_range(where, statement);
     const std::string before = (where - 1)->text;  // a statement is never empty before its `;`
     if (token.text == "{" && (before == "left" || before == "right"))
       return "`straight` has a length: `straight 9 m " + before + " { … }`";
@@ -240,8 +263,11 @@ struct Semicolon : x3::parser<Semicolon> {
     if (first != last && first->text == "}" && in_block_)
       return true;  // the last one in a block may be left out
     State& state = x3::get<StateTag>(context);
-    const bool of_grammar = first - state.begin == 2 && state.begin->text == "grammar";
-    report(state, of_grammar ? state.begin : first, first, "`;`");
+    Iterator statement = first;  // its first token; of a long one, as far back as the advice looks
+    while (statement != state.begin && first - statement < 32 &&
+           !is_among(kBetweenStatements, (statement - 1)->text))
+      --statement;
+    report(state, statement, first, "`;`");
     if (first != last && !first->starts_line) first = resume(first, last);
     return true;
   }
