@@ -42,6 +42,9 @@ TrueOpening read_opening(const GeoFile& file, const GeoFeature& feature, const s
   opening.room = text_of(feature.properties, "room");
   std::tie(opening.a, opening.b) = segment_of(file, feature);
   opening.width_m = number_of(file, feature, "width").value_or((opening.b - opening.a).norm());
+  if (!(opening.width_m > 0))
+    fail(file, feature, "it has no width",
+         "draw it from one end to the other, or give its \"width\" in metres");
   const Heights heights = read_heights(file, feature, "sill", "head");
   opening.sill_m = heights.low;
   opening.head_m = heights.high;
@@ -81,18 +84,12 @@ FloorTruth read_truth(const std::filesystem::path& path, const std::optional<Geo
            "add \"kind\" to the feature's properties: room, door, window, furniture");
     }
   }
-  for (const auto& opening : truth.openings)
-    if (!opening.room.empty() && !ids.contains(opening.room))
-      throw InputError(
-          {file.path},
-          "a " + opening.kind + " names the room '" + opening.room + "', which the file does not have",
-          "write the id of one of the file's room features");
-  for (const auto& piece : truth.furniture)
-    if (!piece.room.empty() && !ids.contains(piece.room))
-      throw InputError(
-          {file.path},
-          "a piece of furniture names the room '" + piece.room + "', which the file does not have",
-          "write the id of one of the file's room features");
+  for (const GeoFeature& feature : file.features) {
+    const std::string kind = text_of(feature.properties, "kind"), room = text_of(feature.properties, "room");
+    if ((kind == "door" || kind == "window" || kind == "furniture") && !room.empty() && !ids.contains(room))
+      fail(file, feature, "it names the room '" + room + "', which the file does not have",
+           "write the id of one of the file's room features");
+  }
   return truth;
 }
 

@@ -72,7 +72,13 @@ TEST_CASE("a door of a room that is not there, a ceiling below the floor, a room
   const test::TemporaryFolder folder;
   FloorTruth truth = sample_truth();
   truth.openings[0].room = "2";
-  CHECK_THROWS_AS(read_truth(folder.write("a.geojson", to_geojson({}, truth))), InputError);
+  CHECK_THROWS_WITH_AS(read_truth(folder.write("a.geojson", to_geojson({}, truth))),
+                       doctest::Contains("feature 2 (door '2'): it names the room '2', which the file does"),
+                       InputError);
+  truth = sample_truth();
+  truth.openings[0].width_m = -1;
+  CHECK_THROWS_WITH_AS(read_truth(folder.write("w.geojson", to_geojson({}, truth))),
+                       doctest::Contains("it has no width"), InputError);
   truth = sample_truth();
   truth.rooms[0].ceiling_m = -4;
   CHECK_THROWS_AS(read_truth(folder.write("b.geojson", to_geojson({}, truth))), InputError);
