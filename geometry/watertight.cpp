@@ -5,6 +5,7 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -129,27 +130,52 @@ class Check {
     for (const int triangle : found) fault(MeshFault::Kind::self_intersection, point(triangle, 0));
   }
 
+  /// The axis along which all corners of both triangles have the same coordinate; -1 when there is none.
+  int level_axis(int s, int t) const {
+    for (int axis = 2; axis >= 0; --axis) {
+      const double at = point(s, 0)[axis];
+      if (point(s, 1)[axis] == at && point(s, 2)[axis] == at && point(t, 0)[axis] == at &&
+          point(t, 1)[axis] == at && point(t, 2)[axis] == at)
+        return axis;
+    }
+    return -1;
+  }
+
   /// True when two triangles meet anywhere but in the corners and edges that they share.
   bool intersect(int s, int t) const {
-    std::vector<int> shared, only_s, only_t;
-    for (const int p : mesh_.triangles[s]) {
-      const auto& other = mesh_.triangles[t];
-      (std::find(other.begin(), other.end(), p) != other.end() ? shared : only_s).push_back(p);
+    const Triangle &a = mesh_.triangles[s], &b = mesh_.triangles[t];
+    // Corners in both, and the others of each.
+    std::array<int, 3> shared{}, only_a{}, only_b{};
+    int shared_count = 0, a_count = 0, b_count = 0;
+    for (const int p : a) {
+      if (std::find(b.begin(), b.end(), p) != b.end())
+        shared[shared_count++] = p;
+      else
+        only_a[a_count++] = p;
     }
-    for (const int p : mesh_.triangles[t])
-      if (std::find(shared.begin(), shared.end(), p) == shared.end()) only_t.push_back(p);
+    for (const int p : b)
+      if (std::find(a.begin(), a.end(), p) == a.end()) only_b[b_count++] = p;
+    if (shared_count == 3) return true;
+
     const auto at = [this](int p) { return cgal(mesh_.points[p]); };
-    const auto whole = [this](int i) {
-      return Kernel::Triangle_3(cgal(point(i, 0)), cgal(point(i, 1)), cgal(point(i, 2)));
-    };
-    if (shared.size() == 3) return true;
-    if (shared.empty()) return CGAL::do_intersect(whole(s), whole(t));
-    if (shared.size() == 1)  // the edge opposite the shared corner must stay clear of the other triangle
-      return CGAL::do_intersect(Kernel::Segment_3(at(only_s[0]), at(only_s[1])), whole(t)) ||
-             CGAL::do_intersect(Kernel::Segment_3(at(only_t[0]), at(only_t[1])), whole(s));
+    if (shared_count < 2) {
+      const Kernel::Triangle_3 face_a(at(a[0]), at(a[1]), at(a[2])), face_b(at(b[0]), at(b[1]), at(b[2]));
+      if (shared_count == 0) return CGAL::do_intersect(face_a, face_b);
+      // The edge opposite the shared corner must stay clear of the other triangle.
+      return CGAL::do_intersect(Kernel::Segment_3(at(only_a[0]), at(only_a[1])), face_b) ||
+             CGAL::do_intersect(Kernel::Segment_3(at(only_b[0]), at(only_b[1])), face_a);
+    }
     // An edge in common: they overlap only when folded onto each other.
-    return CGAL::coplanar(at(shared[0]), at(shared[1]), at(only_s[0]), at(only_t[0])) &&
-           CGAL::coplanar_orientation(at(shared[0]), at(shared[1]), at(only_s[0]), at(only_t[0])) ==
+    if (const int axis = level_axis(s, t); axis >= 0) {  // most often; then doubles decide, not exact numbers
+      const auto in_plane = [&](int p) {
+        const Vec3& q = mesh_.points[p];
+        return Kernel::Point_2(q[(axis + 1) % 3], q[(axis + 2) % 3]);
+      };
+      return CGAL::orientation(in_plane(shared[0]), in_plane(shared[1]), in_plane(only_a[0])) ==
+             CGAL::orientation(in_plane(shared[0]), in_plane(shared[1]), in_plane(only_b[0]));
+    }
+    return CGAL::coplanar(at(shared[0]), at(shared[1]), at(only_a[0]), at(only_b[0])) &&
+           CGAL::coplanar_orientation(at(shared[0]), at(shared[1]), at(only_a[0]), at(only_b[0])) ==
                CGAL::POSITIVE;
   }
 
