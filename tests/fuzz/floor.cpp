@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "floor/ground_truth.h"
+#include "floor/read_indoor.h"
 #include "floor/spaces.h"
 #include "geometry/error.h"
 #include "tests/fuzz/memory_file.h"
@@ -33,6 +34,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const FloorTruth truth = read_truth(file.path());
     if (!to_geojson({}, truth).starts_with("{")) std::abort();
+  } catch (const InputError& error) {
+    if (!*error.what()) std::abort();
+  }
+  try {  // plans of several levels, which the two above refuse
+    if (is_indoor_plan(file.path()))
+      for (const IndoorFloor& level : read_indoor(file.path())) {
+        for (const Space& space : level.floor.spaces) require_finite(space.outline);
+        for (const TrueRoom& room : level.truth.rooms) require_finite(room.outline);
+      }
   } catch (const InputError& error) {
     if (!*error.what()) std::abort();
   }
