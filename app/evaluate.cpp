@@ -79,16 +79,20 @@ void print_scores(const EvaluateArguments& arguments, const LearnData& data, std
       floors, arguments.crossing.draws, 100 * arguments.crossing.width_error,
       arguments.crossing.place_sigma_m, arguments.crossing.doors ? ", doors seen from the hallways" : "",
       arguments.crossing.least_error ? "layouts of least expected error" : "most probable layouts");
-  std::printf("%8s  %-15s %9s %13s %22s %12s %7s\n", "scanned", "rules", "present", "counts right",
-              "unscanned: mean error", "<= 10 cm", "failed");
+  std::printf("%8s  %-15s %9s %13s %26s %12s %12s %7s\n", "scanned", "rules", "present", "counts right",
+              "unscanned: mean error", "<= 10 cm", "nats a room", "failed");
   std::fflush(stdout);
   Progress progress("evaluating");
   CrossListener listener;
   listener.step = [&](const std::string& what, std::size_t total) { progress.step(what, total); };
   listener.score = [](const CrossScore& score) {
-    std::printf("%7.0f%%  %-15s %8.1f%% %12.1f%% %20.3f m %11.1f%% %7d\n", 100 * score.share,
+    char nats[32] = "-";
+    if (score.method != CrossMethod::equal_division)
+      std::snprintf(nats, sizeof nats, "%.3f", score.unscanned_nats);
+    std::printf("%7.0f%%  %-15s %8.1f%% %12.1f%% %13.3f m +- %.3f m %11.1f%% %12s %7d\n", 100 * score.share,
                 to_string(score.method), 100 * score.present, 100 * score.spaces_right,
-                score.unscanned_error_m, 100 * score.unscanned_within_10cm, score.failed);
+                score.unscanned_error_m, score.unscanned_error_deviation_m, 100 * score.unscanned_within_10cm,
+                nats, score.failed);
     std::fflush(stdout);
   };
   cross_validate(data, arguments.learning, make_rules, arguments.crossing, listener);

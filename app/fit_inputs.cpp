@@ -85,7 +85,8 @@ void declare_inputs(CLI::App& verb, FitInputOptions& options) {
   verb.add_option(
           "--likeness", options.fit.likeness,
           "How alike the rooms of a space are: standard deviation of their widths, as a share of them. "
-          "Rooms are then expected to be as wide as one scanned in their space; 0: as the rules say "
+          "Rooms are then expected to be as wide as those scanned in their space and, where the floor's "
+          "scans show that, on their floor; 0: as the rules say "
           "[what the scans of the floor show]")
       ->check(CLI::Range(0.0, 1.0));
   verb.add_flag("--least-error", options.fit.space.least_error,

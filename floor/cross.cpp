@@ -18,6 +18,8 @@
 namespace gramap {
 namespace {
 
+constexpr double kTold_m = 0.05;  // standard deviation of widths and places where rooms are to be foretold
+
 struct Interval {
   double start_m = 0, end_m = 0;
   double width_m() const { return end_m - start_m; }
@@ -102,12 +104,13 @@ std::vector<Interval> fit_rooms(const RuleSet& rules, const SpaceProblem& proble
 }
 
 struct Sums {
-  double rooms = 0, present = 0, spaces = 0, spaces_right = 0, unscanned = 0, error = 0, within = 0,
+  double rooms = 0, present = 0, spaces = 0, spaces_right = 0, unscanned = 0, error = 0, within = 0, nats = 0,
          failed = 0;
   Sums& operator+=(const Sums& other) {
     rooms += other.rooms, present += other.present, spaces += other.spaces,
         spaces_right += other.spaces_right;
-    unscanned += other.unscanned, error += other.error, within += other.within, failed += other.failed;
+    unscanned += other.unscanned, error += other.error, within += other.within, nats += other.nats;
+    failed += other.failed;
     return *this;
   }
 };
@@ -161,6 +164,7 @@ struct Job {
   SpaceProblem problem;
   std::vector<Interval> truth;
   std::vector<bool> scanned;
+  std::vector<RoomEvidence> unscanned;  ///< as a scan would see them
   Sums sums[3];
 };
 
@@ -178,10 +182,14 @@ std::vector<Job> draw_jobs(const std::vector<const KnownRow*>& rows, double wall
     const std::vector<bool> chosen = choose(total, count, generator);
     std::size_t next = 0;
     for (const KnownRow* row : rows) {
-      Job job{row, bare_problem(*row), true_rooms(*row, wall_m), {}, {}};
+      Job job{row, bare_problem(*row), true_rooms(*row, wall_m), {}, {}, {}};
+      const std::vector<RoomEvidence> rooms = row_evidence(*row, wall_m, kTold_m, kTold_m);
       for (std::size_t i = 0; i < row->rooms.size(); ++i) {
         job.scanned.push_back(chosen[next++]);
-        if (!job.scanned.back()) continue;
+        if (!job.scanned.back()) {
+          job.unscanned.push_back(rooms[i]);
+          continue;
+        }
         const double sigma = options.width_error * job.truth[i].width_m();
         RoomEvidence evidence;
         evidence.id = row->rooms[i].id;
@@ -209,9 +217,19 @@ std::vector<FitOptions> fit_options(const RuleSet& rules, const std::vector<Job>
     options.emplace_back();
     options.back().grid_m = crossing.grid_m;
     options.back().least_error = crossing.least_error;
-    options.back().likeness = crossing.likeness ? *crossing.likeness : likeness_of(rules, problems);
+    options.back().likeness = likeness_of(rules, problems, crossing.likeness);
   }
   return options;
+}
+
+/// Of the rooms that were not scanned.
+double foretold(const RuleSet& rules, const SpaceProblem& problem, const std::vector<RoomEvidence>& rooms,
+                const FitOptions& options) {
+  try {
+    return rooms.empty() ? 0 : log_predictive(rules, problem, rooms, options);
+  } catch (const InputError&) {
+    return -std::numeric_limits<double>::infinity();
+  }
 }
 
 /// Rules that cannot be laid into a space at all, say because a unit is too deep for it, make it impossible.
@@ -250,7 +268,10 @@ std::vector<LeftOut> leave_out_each(const LearnData& data, const LearnOptions& l
   return floors;
 }
 
-CrossScore score_of(const Sums& sum, CrossMethod method, double share) {
+/// From the sums of each draw.
+CrossScore score_of(const std::vector<Sums>& draws, CrossMethod method, double share) {
+  Sums sum;
+  for (const Sums& draw : draws) sum += draw;
   CrossScore score;
   score.method = method;
   score.share = share;
@@ -258,6 +279,15 @@ CrossScore score_of(const Sums& sum, CrossMethod method, double share) {
   score.spaces_right = sum.spaces_right / std::max(1.0, sum.spaces);
   score.unscanned_error_m = sum.error / std::max(1.0, sum.unscanned);
   score.unscanned_within_10cm = sum.within / std::max(1.0, sum.unscanned);
+  score.unscanned_nats = sum.nats / std::max(1.0, sum.unscanned);
+  double squares = 0;  // of what a draw adds to the ratio's numerator: the deviation of a ratio of sums
+  for (const Sums& draw : draws) {
+    const double residual = draw.error - score.unscanned_error_m * draw.unscanned;
+    squares += residual * residual;
+  }
+  const auto count = static_cast<double>(draws.size());
+  score.unscanned_error_deviation_m =
+      count > 1 ? std::sqrt(squares * count / (count - 1)) / std::max(1.0, sum.unscanned) : 0;
   score.unscanned = static_cast<int>(sum.unscanned);
   score.failed = static_cast<int>(sum.failed);
   return score;
@@ -284,7 +314,8 @@ std::vector<CrossScore> cross_validate(const LearnData& data, const LearnOptions
   std::mutex reporting;
   std::vector<CrossScore> scores;
   for (std::size_t s = 0; s < options.shares.size(); ++s) {
-    Sums sums[3];
+    std::vector<Sums> sums[3];
+    for (auto& of_method : sums) of_method.resize(static_cast<std::size_t>(options.draws));
     for (std::size_t f = 0; f < floors.size(); ++f) {
       const LeftOut& floor = floors[f];
       std::vector<Job> jobs = draw_jobs(floor.rows, data.inner_wall_m, options, s, options.seed + 7919 * f);
@@ -299,14 +330,16 @@ std::vector<CrossScore> cross_validate(const LearnData& data, const LearnOptions
             compare(job.truth, fit_rooms(floor.uniform, job.problem, by_uniform[draw]), job.scanned);
         job.sums[2] = compare(job.truth, divide_equally(job.problem, data.inner_wall_m, floor.usual_width_m),
                               job.scanned);
+        job.sums[0].nats = foretold(floor.learned, job.problem, job.unscanned, by_learned[draw]);
+        job.sums[1].nats = foretold(floor.uniform, job.problem, job.unscanned, by_uniform[draw]);
         if (!listener.step) return;
         const std::lock_guard<std::mutex> lock(reporting);
         listener.step(floor.name + ", " + std::to_string(std::lround(100 * options.shares[s])) +
                           " % scanned: " + job.row->space,
                       floors.size() * options.shares.size() * jobs.size());
       });
-      for (const Job& job : jobs)
-        for (std::size_t m = 0; m < 3; ++m) sums[m] += job.sums[m];
+      for (std::size_t i = 0; i < jobs.size(); ++i)
+        for (std::size_t m = 0; m < 3; ++m) sums[m][i / floor.rows.size()] += jobs[i].sums[m];
     }
     for (std::size_t m = 0; m < 3; ++m) {
       scores.push_back(score_of(sums[m], static_cast<CrossMethod>(m), options.shares[s]));
@@ -319,7 +352,6 @@ std::vector<CrossScore> cross_validate(const LearnData& data, const LearnOptions
 std::vector<HeldOutLikelihood> held_out_likelihoods(
     const LearnData& data, const LearnOptions& learning, const RuleMaker& make,
     const std::vector<std::pair<std::string, RuleSet>>& others, double grid_m) {
-  constexpr double sigma_m = 0.05;
   FitOptions options;
   options.grid_m = grid_m;
   std::vector<HeldOutLikelihood> result;
@@ -336,7 +368,7 @@ std::vector<HeldOutLikelihood> held_out_likelihoods(
     for (const KnownRow& row : data.rows) {
       if (row.floor != floor || !row.whole) continue;
       SpaceProblem problem = bare_problem(row);
-      problem.rooms = row_evidence(row, data.inner_wall_m, sigma_m, sigma_m);
+      problem.rooms = row_evidence(row, data.inner_wall_m, kTold_m, kTold_m);
       rooms += static_cast<double>(problem.rooms.size());
       problems.push_back(std::move(problem));
     }

@@ -26,7 +26,7 @@ struct CrossOptions {
   double width_error = 0.03;   ///< standard deviation of a scanned width, relative
   double place_sigma_m = 0.3;  ///< standard deviation of a scanned room's position
   double grid_m = 0.05;        ///< step of the fit's positions: plans drawn to 0.2 m need no centimetres
-  /// FitOptions::likeness; none: what the scans of a draw show, as in the fit of a floor.
+  /// Likeness::deviation, instead of what the scans of a draw show.
   std::optional<double> likeness;
   bool least_error = true;  ///< FitOptions::least_error: the score is the error of widths; else the mode
   bool doors = false;       ///< hallways are scanned too: every door of the plan is seen, to 5 cm
@@ -41,7 +41,11 @@ struct CrossScore {
   double present = 0;            ///< share of true rooms that are there, in order, overlapping by half
   double spaces_right = 0;       ///< share of spaces with the right number of rooms
   double unscanned_error_m = 0;  ///< mean absolute width error of the rooms that were not scanned
+  double unscanned_error_deviation_m = 0;  ///< standard deviation of that mean, from the draws
   double unscanned_within_10cm = 0;
+  /// ln p(their widths and places, to 5 cm | rules, scans), per room; not for equal division, which is sure
+  /// of what it says.
+  double unscanned_nats = 0;
   int unscanned = 0;  ///< how many went into that
   int failed = 0;     ///< spaces that the rules could not fill
 };

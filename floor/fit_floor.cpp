@@ -372,7 +372,7 @@ std::vector<SpaceProblem> space_problems(const FloorGroundTruth& floor, const Ru
 FitOptions space_options(const RuleSet& rules, const std::vector<SpaceProblem>& problems,
                          const FloorFitOptions& options) {
   FitOptions fitting = with_doorless_share(rules, problems, options.space);
-  fitting.likeness = options.likeness ? *options.likeness : likeness_of(rules, problems);
+  fitting.likeness = likeness_of(rules, problems, options.likeness);
   return fitting;
 }
 
@@ -391,7 +391,7 @@ FittedFloor fit_floor(const FloorGroundTruth& floor, const RuleSet& rules,
   FittedFloor fitted = given_floor(floor, rules, storey_height(floor, rules, observations));
   const RuleSet here = rules_on_floor(rules, floor);
   const FitOptions fitting = space_options(here, problems, options);
-  fitted.likeness = fitting.likeness;
+  fitted.likeness = fitting.likeness.deviation;
   fit_spaces(fitted, here, problems, fitting);
   for (const PlacedObservation& placed : place_observations(floor, observations, options.placement).placed) {
     if (placed.on == PlacedObservation::On::space) continue;

@@ -18,7 +18,7 @@ struct FloorFitOptions {
   PlacementOptions placement;
   HallwayDoorOptions doors;
   FitOptions space;
-  /// Goes before `space.likeness` (grammar/like_scanned.h); none: what the floor's scans show.
+  /// Likeness::deviation, instead of what the floor's scans show (grammar/like_scanned.h).
   std::optional<double> likeness;
 };
 

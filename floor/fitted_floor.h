@@ -80,7 +80,7 @@ struct FittedFloor {
   double inner_wall_m = 0;
   double outer_wall_m = 0;
   double height_m = 0;               ///< clear storey height
-  double likeness = 0;               ///< of rooms of one space (FitOptions), as it was fitted
+  double likeness = 0;               ///< of rooms of one space (Likeness::deviation), as fitted
   std::vector<FittedRoom> rooms;     ///< spaces in file order, rooms from start to end
   std::vector<FittedRoom> hallways;  ///< origin `given`
   std::vector<FittedRoom> fixed;     ///< origin `given`

@@ -105,6 +105,26 @@ struct SpaceFit {
   std::vector<Reinterpreted> reinterpreted;
 };
 
+/// Scanned rooms of a floor that are about as wide as one another.
+struct AlikeRooms {
+  double width_m = 0;  ///< mean
+  double sigma_m = 0;  ///< of one of them, as scanned
+  int count = 0;
+  std::string type;  ///< as in RoomEvidence
+  double type_confidence = 0;
+};
+
+/// How alike the rooms of a space, and those of a floor, are expected to be (like_scanned.h).
+struct Likeness {
+  /// Standard deviation of the widths of rooms that are alike, as a share of them; 0: no room is expected to
+  /// be like another.
+  double deviation = 0;
+  double rules_worth = 1;      ///< so many scanned rooms of the space are worth what is expected of any space
+  double floor_deviation = 0;  ///< as `deviation`, of rooms of different spaces
+  double floor_rules_worth = 1;      ///< so many scanned rooms of the floor are worth the rules
+  std::vector<AlikeRooms> on_floor;  ///< in all spaces; none unless floor_deviation > 0
+};
+
 struct FitOptions {
   double grid_m = 0.01;         ///< step of the dynamic programme's positions
   double outlier_share = 0.02;  ///< ε: prior share of evidence that no room explains
@@ -115,9 +135,7 @@ struct FitOptions {
   double doorless_share = 0.03;      ///< prior share of rooms without a door to the hallway
   double second_door_share = 0.05;   ///< prior share of rooms with two doors or more
   double false_door_share = 0.01;    ///< expected number of doors seen per space that are none
-  /// > 0: rooms of a space are expected to be as wide as those scanned in it, to this share of their width,
-  /// one standard deviation (like_scanned.h).
-  double likeness = 0;
+  Likeness likeness;
   int beam = 24;         ///< prefixes of layouts that are carried on from about the same place
   int alternatives = 0;  ///< how many distinct alternatives to report
   /// Instead of the most probable layout the one whose widths are expected to be least wrong

@@ -85,46 +85,97 @@ std::vector<double> widths(const SpaceFit& fit) {
 
 }  // namespace
 
-TEST_CASE("with n scans the next room is theirs with probability n / (n + 1), whatever its type") {
+TEST_CASE(
+    "the rules, the rooms of the floor and those of the space foretell the next room as their worth says") {
   const RuleSet rules = rules_of(kOffices);
   SpaceProblem problem = bare(60);
   problem.rooms = {scan(0, 3.1), scan(20, 9.0), scan(40, 16.0)};
+  SpaceProblem elsewhere = bare(60);
+  elsewhere.rooms = {scan(0, 5.0), scan(20, 5.0), scan(40, 7.0)};
   const Row before = row_of(rules, problem);
+  for (const bool floor : {false, true}) {
+    for (const double worth : {1.0, 4.0}) {
+      INFO("floor ", floor, ", rules worth ", worth);
+      Likeness likeness{0.02, worth, 0, 1, {}};
+      if (floor) likeness = {0.02, worth, 0.1, 5, alike_rooms({problem, elsewhere})};
+      Row after = before;
+      const std::vector<double> ratios = expect_as_scanned(rules, problem, likeness, after);
+
+      for (double width_m = 1.5; width_m < 20.5; width_m += 0.01) {
+        double anywhere = first_width(before, width_m);
+        if (floor) {
+          anywhere *= 5;
+          for (const double of : {3.1, 9.0, 16.0, 5.0, 5.0, 7.0})
+            anywhere += normal_density(width_m, of, std::hypot(0.01, 0.1 * of));
+          anywhere /= 5 + 6;
+        }
+        double expected = worth * anywhere;
+        for (const RoomEvidence& room : problem.rooms)
+          expected += normal_density(width_m, room.width_m, std::hypot(0.01, 0.02 * room.width_m));
+        INFO(width_m);
+        CHECK(first_width(after, width_m) == doctest::Approx(expected / (worth + 3)).epsilon(0.005));
+      }
+      for (std::size_t state = 0; state < after.arcs.size(); ++state) {
+        double sum_before = 0, sum_after = 0;
+        for (const Arc& arc : before.arcs[state][0]) sum_before += arc.probability;
+        for (const Arc& arc : after.arcs[state][0]) sum_after += arc.probability;
+        CHECK(sum_after == doctest::Approx(sum_before));
+      }
+      for (const Element& element : after.elements) {
+        if (element.kind != Element::Width::mixture) continue;
+        double sum = 0;
+        for (const Mixture::Component& c : element.mixture.components) sum += c.weight;
+        CHECK(sum == doctest::Approx(1));
+      }
+
+      // The prior of each scan's own width x its ratio: what the others and the rules foretell of it.
+      REQUIRE(ratios.size() == 3);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double width_m = problem.rooms[i].width_m;
+        SpaceProblem others = problem;
+        others.rooms.erase(others.rooms.begin() + static_cast<std::ptrdiff_t>(i));
+        Likeness from_others = likeness;
+        if (floor) from_others.on_floor = alike_rooms({others, elsewhere});
+        Row without = before;
+        (void)expect_as_scanned(rules, others, from_others, without);
+        CHECK(ratios[i] * first_width(after, width_m) ==
+              doctest::Approx(first_width(without, width_m)).epsilon(0.01));
+      }
+    }
+  }
+}
+
+TEST_CASE("a space without scans takes after those of its floor") {
+  const RuleSet rules = rules_of(kOffices);
+  SpaceProblem scanned = bare(60);
+  for (int i = 0; i < 6; ++i) scanned.rooms.push_back(scan(9.1 * i, 9.0));
+  const Likeness likeness{0.02, 2, 0.05, 4, alike_rooms({scanned})};
+  const SpaceProblem unseen = bare(60);
+  const Row before = row_of(rules, unseen);
   Row after = before;
-  const double likeness = 0.02;
-  const std::vector<double> ratios = expect_as_scanned(rules, problem, likeness, after);
+  CHECK(expect_as_scanned(rules, unseen, likeness, after).empty());
+  CHECK(first_width(after, 9.0) > 5 * first_width(before, 9.0));
+}
 
-  for (double width_m = 1.5; width_m < 20.5; width_m += 0.01) {
-    double expected = first_width(before, width_m);
-    for (const RoomEvidence& room : problem.rooms)
-      expected += normal_density(width_m, room.width_m, std::hypot(0.01, likeness * room.width_m));
-    INFO(width_m);
-    CHECK(first_width(after, width_m) == doctest::Approx(expected / 4).epsilon(0.005));
+TEST_CASE("scanned rooms of a floor are grouped by type and width, in linear numbers") {
+  std::vector<SpaceProblem> problems;
+  for (int space = 0; space < 100; ++space) {
+    problems.push_back(bare(60));
+    for (int i = 0; i < 10; ++i)
+      problems.back().rooms.push_back(scan(5 * i, 3 + 0.001 * ((7 * space + i) % 3)));
+    problems.back().rooms.push_back(scan(55, 4, 0.02));
   }
-  for (std::size_t state = 0; state < after.arcs.size(); ++state) {
-    double sum_before = 0, sum_after = 0;
-    for (const Arc& arc : before.arcs[state][0]) sum_before += arc.probability;
-    for (const Arc& arc : after.arcs[state][0]) sum_after += arc.probability;
-    CHECK(sum_after == doctest::Approx(sum_before));
-  }
-  for (const Element& element : after.elements) {
-    if (element.kind != Element::Width::mixture) continue;
-    double sum = 0;
-    for (const Mixture::Component& c : element.mixture.components) sum += c.weight;
-    CHECK(sum == doctest::Approx(1));
-  }
-
-  // The prior of each scan's own width x its ratio: what the two other scans and the rules foretell of it.
-  REQUIRE(ratios.size() == 3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double width_m = problem.rooms[i].width_m;
-    SpaceProblem others = problem;
-    others.rooms.erase(others.rooms.begin() + static_cast<std::ptrdiff_t>(i));
-    Row without = before;
-    (void)expect_as_scanned(rules, others, likeness, without);
-    CHECK(ratios[i] * first_width(after, width_m) ==
-          doctest::Approx(first_width(without, width_m)).epsilon(0.01));
-  }
+  problems[0].rooms[0].type = "Office";
+  problems[1].rooms[0].other_width_m = 4;  // which of the two is not known
+  const std::vector<AlikeRooms> groups = alike_rooms(problems);
+  REQUIRE(groups.size() == 3);
+  CHECK(groups[0].count == 998);
+  CHECK(groups[0].width_m == doctest::Approx(3.001).epsilon(1e-4));
+  CHECK(groups[0].sigma_m == doctest::Approx(0.01));
+  CHECK(groups[1].count == 100);
+  CHECK(groups[1].width_m == doctest::Approx(4));
+  CHECK(groups[1].sigma_m == doctest::Approx(0.02));
+  CHECK(groups[2].type == "Office");
 }
 
 TEST_CASE("a likeness of zero, and scans whose dimension along the line is not known, change nothing") {
@@ -132,10 +183,10 @@ TEST_CASE("a likeness of zero, and scans whose dimension along the line is not k
   SpaceProblem problem = bare(60);
   problem.rooms = {scan(0, 3.1)};
   Row row = row_of(rules, problem);
-  CHECK(expect_as_scanned(rules, problem, 0, row).empty());
+  CHECK(expect_as_scanned(rules, problem, {}, row).empty());
   problem.rooms[0].other_width_m = 5;
   problem.rooms[0].other_sigma_m = 0.01;
-  CHECK(expect_as_scanned(rules, problem, 0.04, row).empty());
+  CHECK(expect_as_scanned(rules, problem, {0.04, 1, 0, 1, {}}, row).empty());
   CHECK(first_width(row, 3.1) == first_width(row_of(rules, problem), 3.1));
 }
 
@@ -145,8 +196,8 @@ TEST_CASE("what the rules rule out stays ruled out") {
   SpaceProblem problem = bare(60);
   problem.rooms = {scan(0, 5.25), scan(10, 5.25), scan(20, 5.25)};
   Row row = row_of(rules, problem);
-  CHECK(expect_as_scanned(rules, problem, 0.08, row).empty());
-  CHECK(likeness_of(rules, {problem}) == 0);
+  CHECK(expect_as_scanned(rules, problem, {0.08, 1, 0, 1, {}}, row).empty());
+  CHECK(likeness_of(rules, {problem}).deviation == 0);
 }
 
 TEST_CASE("the scan's type says whose width it is") {
@@ -157,7 +208,7 @@ TEST_CASE("the scan's type says whose width it is") {
   const auto share_of = [&](const std::string& type, const std::string& wanted) {
     problem.rooms[0].type = type;
     Row row = row_of(rules, problem);
-    (void)expect_as_scanned(rules, problem, 0.02, row);
+    (void)expect_as_scanned(rules, problem, {0.02, 1, 0, 1, {}}, row);
     double share = 0;
     for (const Arc& arc : row.arcs[0][0]) {
       const int placed = row.elements[static_cast<std::size_t>(arc.element)].first_type();
@@ -178,7 +229,7 @@ TEST_CASE(
   FitOptions options;
   options.grid_m = 0.05;
   CHECK(widths(fit_space(rules, problem, options)).size() > 5);
-  options.likeness = 0.02;
+  options.likeness.deviation = 0.02;
   const SpaceFit fit = fit_space(rules, problem, options);
   REQUIRE(fit.best.rooms.size() == 5);
   for (const PlacedRoom& room : fit.best.rooms) {
@@ -196,7 +247,7 @@ TEST_CASE("one scan that is wrong is found out as readily as without likeness: i
   FitOptions options;
   options.grid_m = 0.05;
   for (const double likeness : {0.0, 0.02}) {
-    options.likeness = likeness;
+    options.likeness.deviation = likeness;
     const SpaceFit fit = fit_space(rules, problem, options);
     INFO("likeness ", likeness);
     CHECK(fit.best.rooms.size() == 6);
@@ -221,8 +272,8 @@ TEST_CASE("floors drawn from the rules are as the rules say; floors of rows that
       for (int room = 0; room < 4; ++room)
         alike.back().rooms.push_back(scan(9 * room, usual_m * (0.98 + 0.04 * any(generator))));
     }
-    drawn_alike += likeness_of(rules, drawn) > 0;
-    rows_alike += likeness_of(rules, alike) > 0;
+    drawn_alike += likeness_of(rules, drawn).deviation > 0;
+    rows_alike += likeness_of(rules, alike).deviation > 0;
   }
   CHECK(drawn_alike <= 1);
   CHECK(rows_alike == 10);
