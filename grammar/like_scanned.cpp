@@ -375,17 +375,19 @@ std::vector<AlikeRooms> alike_rooms(const std::vector<SpaceProblem>& problems) {
 
 namespace {
 
-constexpr double kFloorDeviations[] = {0.05, 0.1, 0.2};
+constexpr double kFloorDeviations[] = {0.05, 0.1};
 
 /// What foretells each scan, by deviation.
 struct ScanForetold {
   std::vector<Foretold> own;  ///< without the floor
+  double misread = 0;         ///< density of a width that was read wrong
   Foretold floor[std::size(kFloorDeviations)];
 };
 
 std::vector<ScanForetold> foretell(const RuleSet& rules, const SpaceProblem& problem,
                                    const std::vector<double>& deviations,
                                    const std::vector<AlikeRooms>& on_floor) {
+  constexpr double kMisread = 0.05;     // share of scans; one whose width nothing foretells shows no likeness
   constexpr double kUsualGrid_m = 0.1;  // conditions on the length are asked at the row's start only
   const CompiledRow bare = compile_row(rules, {problem.depth_m, problem.hallway, problem.facade},
                                        make_grid(problem.length_m, rules.inner_wall_m, kUsualGrid_m));
@@ -398,6 +400,7 @@ std::vector<ScanForetold> foretell(const RuleSet& rules, const SpaceProblem& pro
   std::vector<ScanForetold> result;
   for (const RoomEvidence* scan : scans) {
     ScanForetold foretold;
+    foretold.misread = kMisread / problem.length_m;
     Foretold by;
     by.ruled = density(bare.row, expected, scan->width_m, scan->width_sigma_m);
     by.own_count = static_cast<double>(scans.size()) - 1;
@@ -439,7 +442,7 @@ Likeness likeness_of(const RuleSet& rules, const std::vector<SpaceProblem>& prob
         by.floor = scan.floor[floor].floor;
         by.floor_count = scan.floor[floor].floor_count;
       }
-      gain += std::log(density(by, likeness) / by.ruled);
+      gain += std::log((density(by, likeness) + scan.misread) / (by.ruled + scan.misread));
     }
     if (gain <= most) return;
     most = gain;
