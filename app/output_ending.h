@@ -8,8 +8,8 @@
 
 namespace gramap {
 
-/// Refuses, as wrong usage, names that end in none of `endings` (".glb", …; "": names without an ending, as devices
-/// and "-" are).
+/// Refuses, as wrong usage, names that end in none of `endings` (".glb", …; "": names without an ending, as
+/// devices and "-" are).
 inline CLI::Validator ending_in(std::vector<std::string> endings) {
   const auto fault = [endings = std::move(endings)](const std::string& path) -> std::string {
     const std::string type = std::filesystem::path(path).extension().string();

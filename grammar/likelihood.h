@@ -16,8 +16,8 @@ double log_likelihood(const RuleSet& rules, const SpaceProblem& problem, const F
 /// ln p(evidence, length | rules): the same but for what does not depend on the evidence, in half the time.
 double log_joint(const RuleSet& rules, const SpaceProblem& problem, const FitOptions& options = {});
 
-/// ln p(rooms | what was observed in the space, rules): how well rooms are foretold that were not scanned. That
-/// no room explains one of them is as probable as for scans. -infinity when no layout fills the space.
+/// ln p(rooms | what was observed in the space, rules): how well rooms are foretold that were not scanned.
+/// That no room explains one of them is as probable as for scans. -infinity when no layout fills the space.
 double log_predictive(const RuleSet& rules, const SpaceProblem& observed,
                       const std::vector<RoomEvidence>& rooms, const FitOptions& options = {});
 
